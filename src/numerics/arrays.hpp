@@ -1,0 +1,28 @@
+// The array types of the numerical core.
+
+#ifndef morph_arrays_hpp
+#define morph_arrays_hpp
+
+#include <Eigen/Core>
+
+#include <cstddef>
+
+namespace morph
+{
+
+using Index = std::ptrdiff_t;
+
+using Vector3 = Eigen::Vector3d;
+
+using Matrix = Eigen::MatrixXd;
+
+// n vectors as rows, one after the other in memory: the layout of OpenFOAM's
+// pointField, so that one can be mapped onto the other without a copy
+using Vectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+// n vectors as three contiguous columns: the layout of vectorised loops
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor>;
+
+} // namespace morph
+
+#endif

@@ -1,0 +1,170 @@
+#include "candidateList.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace morph
+{
+
+namespace
+{
+
+constexpr std::size_t packedSize = 22;
+
+
+void pack(std::vector<double>& buffer, const Listed& entry)
+{
+    const ControlPoint& p = entry.point;
+    buffer.insert(buffer.end(), p.position.data(), p.position.data() + 3);
+    buffer.push_back(p.k);
+    buffer.insert(buffer.end(), p.directions.data(), p.directions.data() + 9);
+    buffer.insert(buffer.end(), p.value.data(), p.value.data() + 3);
+    buffer.insert
+    (
+        buffer.end(), entry.residual.data(), entry.residual.data() + 3
+    );
+    buffer.push_back(entry.error);
+    buffer.push_back(entry.rank);
+    buffer.push_back(double(entry.index));
+}
+
+
+Listed unpack(const double* v)
+{
+    Listed entry;
+    entry.point.position = Eigen::Map<const Vector3>(v);
+    entry.point.k = int(v[3]);
+    entry.point.directions = Eigen::Map<const Eigen::Matrix3d>(v + 4);
+    entry.point.value = Eigen::Map<const Vector3>(v + 13);
+    entry.residual = Eigen::Map<const Vector3>(v + 16);
+    entry.error = v[19];
+    entry.rank = int(v[20]);
+    entry.index = Index(v[21]);
+    return entry;
+}
+
+
+// Lets through the first of each cell
+class Thinning
+{
+public:
+
+    explicit Thinning(double cell) : cell_(cell) {}
+
+    bool first(const Vector3& x)
+    {
+        if (!(cell_ > 0))
+        {
+            return true;
+        }
+        std::array<double, 3> key;
+        for (int a = 0; a < 3; ++a)
+        {
+            key[a] = std::floor(x[a]/cell_);
+        }
+        return taken_.insert(key).second;
+    }
+
+private:
+
+    double cell_;
+    std::set<std::array<double, 3>> taken_;
+};
+
+} // namespace
+
+
+bool Listed::precedes(const Listed& a, const Listed& b)
+{
+    if (a.error != b.error)
+    {
+        return a.error > b.error;
+    }
+    if (a.point.position != b.point.position)
+    {
+        return before(a.point.position, b.point.position);
+    }
+    return a.point.k > b.point.k;
+}
+
+
+std::vector<Listed> candidateList
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Index length,
+    double cell,
+    Communicator& communicator,
+    double& outside
+)
+{
+    // A heap gives the worst first without sorting all of them
+    std::vector<Index> heap;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+        if (errors.available[i] && errors.norms[i] > least)
+        {
+            heap.push_back(i);
+        }
+    }
+    const auto better = [&](Index a, Index b)
+    {
+        return errors.norms[a] != errors.norms[b]
+          ? errors.norms[a] < errors.norms[b]
+          : before(candidates[b].position, candidates[a].position);
+    };
+    std::make_heap(heap.begin(), heap.end(), better);
+
+    std::vector<double> mine;
+    Thinning thinning(cell);
+    for (Index n = 0; n <= length && !heap.empty(); )
+    {
+        std::pop_heap(heap.begin(), heap.end(), better);
+        const Index i = heap.back();
+        heap.pop_back();
+        if (thinning.first(candidates[i].position))
+        {
+            const Vector3 residual = errors.residuals.row(i).transpose();
+            pack
+            (
+                mine,
+                {
+                    candidates[i], residual, errors.norms[i],
+                    communicator.rank(), i
+                }
+            );
+            ++n;
+        }
+    }
+
+    const std::vector<double> all = communicator.gather(mine);
+    std::vector<Listed> offered;
+    for (std::size_t i = 0; i < all.size(); i += packedSize)
+    {
+        offered.push_back(unpack(&all[i]));
+    }
+    std::sort(offered.begin(), offered.end(), Listed::precedes);
+
+    outside = 0;
+    std::vector<Listed> list;
+    Thinning together(cell);
+    for (const Listed& entry : offered)
+    {
+        if (!together.first(entry.point.position))
+        {
+            continue;
+        }
+        if (Index(list.size()) == length)
+        {
+            outside = entry.error;
+            break;
+        }
+        list.push_back(entry);
+    }
+    return list;
+}
+
+} // namespace morph

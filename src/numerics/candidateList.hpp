@@ -1,0 +1,50 @@
+// The short list of candidates from which a sweep takes its points.
+
+#ifndef morph_candidateList_hpp
+#define morph_candidateList_hpp
+
+#include "communicator.hpp"
+#include "controlPoints.hpp"
+
+namespace morph
+{
+
+// A candidate as all ranks see it
+struct Listed
+{
+    ControlPoint point;
+    Vector3 residual;   // g - C^T s, its first k entries
+    double error;       // |residual|
+    int rank;           // who has it
+    Index index;        // and under which index
+
+    // Larger errors first, then by position
+    static bool precedes(const Listed& a, const Listed& b);
+};
+
+// The errors of a rank's candidates after a sweep
+struct Errors
+{
+    Vectors residuals;              // n x 3
+    std::vector<double> norms;      // n
+    std::vector<char> available;    // n: neither selected nor rejected
+};
+
+// The `length` candidates of all ranks with the largest errors above `least`,
+// at most one per cell of size `cell` [m] (none if zero); sorted, the same on
+// every rank whatever the distribution. `outside` receives the error of the
+// first that did not find a place, zero if all did.
+std::vector<Listed> candidateList
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Index length,
+    double cell,
+    Communicator& communicator,
+    double& outside
+);
+
+} // namespace morph
+
+#endif

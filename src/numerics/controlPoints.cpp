@@ -1,0 +1,144 @@
+#include "controlPoints.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace morph
+{
+
+ControlPoint ControlPoint::prescribed(const Vector3& x, const Vector3& s)
+{
+    ControlPoint p;
+    p.position = x;
+    p.value = s;
+    return p;
+}
+
+
+ControlPoint ControlPoint::sliding
+(
+    const Vector3& x,
+    const std::vector<Vector3>& normals,
+    const Vector3& s
+)
+{
+    ControlPoint p;
+    p.position = x;
+    p.k = 0;
+    p.directions.setZero();
+
+    for (const Vector3& normal : normals)
+    {
+        // Twice, so that nearly parallel normals end orthogonal to round-off
+        Vector3 n = normal.normalized();
+        for (int pass = 0; pass < 2; ++pass)
+        {
+            n -= p.C()*(p.C().transpose()*n);
+        }
+        if (p.k == 3 || !(n.norm() > 1e-6))
+        {
+            throw std::invalid_argument
+            (
+                "the normals of a sliding control point are zero or dependent"
+            );
+        }
+        p.directions.col(p.k++) = n.normalized();
+    }
+
+    p.value.head(p.k) = p.C().transpose()*s;
+    return p;
+}
+
+
+bool before(const Vector3& a, const Vector3& b)
+{
+    return std::lexicographical_compare
+    (
+        a.data(), a.data() + 3, b.data(), b.data() + 3
+    );
+}
+
+
+Columns positions(const ControlPoints& points)
+{
+    Columns x(points.size(), 3);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        x.row(i) = points[i].position.transpose();
+    }
+    return x;
+}
+
+
+ConflictingControlPoints::ConflictingControlPoints
+(
+    const Vector3& x,
+    double difference
+)
+:
+    std::invalid_argument
+    (
+        [&]
+        {
+            std::ostringstream s;
+            s   << "two control points at (" << x.transpose()
+                << ") are told to go to places " << difference << " apart";
+            return s.str();
+        }()
+    ),
+    position(x),
+    difference(difference)
+{}
+
+
+std::vector<Index> withoutDuplicates
+(
+    const ControlPoints& points,
+    double tolerance
+)
+{
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::sort
+    (
+        order.begin(),
+        order.end(),
+        [&](Index a, Index b)
+        {
+            const ControlPoint& p = points[a];
+            const ControlPoint& q = points[b];
+            if (p.position != q.position)
+            {
+                return before(p.position, q.position);
+            }
+            return p.k != q.k ? p.k > q.k : a < b;
+        }
+    );
+
+    std::vector<Index> kept;
+    for (const Index i : order)
+    {
+        const ControlPoint& p = points[i];
+        if (kept.empty() || points[kept.back()].position != p.position)
+        {
+            kept.push_back(i);
+            continue;
+        }
+
+        // The displacement the kept point prescribes, along its directions
+        const ControlPoint& q = points[kept.back()];
+        const double difference = p.residual(q.C()*q.g()).norm();
+        if (q.k == 3 && difference > tolerance)
+        {
+            throw ConflictingControlPoints(p.position, difference);
+        }
+    }
+
+    std::sort(kept.begin(), kept.end());
+    return kept;
+}
+
+} // namespace morph

@@ -1,0 +1,95 @@
+// Control points: where they are, along which directions their displacement is
+// prescribed, and by how much.
+
+#ifndef morph_controlPoints_hpp
+#define morph_controlPoints_hpp
+
+#include "arrays.hpp"
+
+#include <Eigen/StdVector>
+
+#include <stdexcept>
+#include <vector>
+
+namespace morph
+{
+
+// Condition on the displacement s at the control point: C^T s(x) = g.
+//   k = 3  moving or fixed: s is prescribed (C = I, g = s)
+//   k = 1  sliding on a surface of unit normal C: g = n . s
+//   k = 2  sliding along an edge; the columns of C are orthonormal and span
+//          the plane normal to the edge
+// The weight of the control point lies in the span of C, which makes the system
+// symmetric (Mastrippolito et al. 2019, eqs 2-5, doi:10.1108/EC-06-2018-0265,
+// with C in place of n, t, b).
+struct ControlPoint
+{
+    Vector3 position = Vector3::Zero();
+    int k = 3;
+    Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+    Vector3 value = Vector3::Zero();
+
+    // The first k columns of directions, and entries of value, count
+    auto C() const { return directions.leftCols(k); }
+    auto g() const { return value.head(k); }
+
+    // s is prescribed
+    static ControlPoint prescribed(const Vector3& x, const Vector3& s);
+
+    // The component of s along the normals is prescribed to be that of the
+    // given displacement. One normal: a surface. Two: an edge. Normals need not
+    // have unit length nor be orthogonal; throws std::invalid_argument if they
+    // are dependent.
+    static ControlPoint sliding
+    (
+        const Vector3& x,
+        const std::vector<Vector3>& normals,
+        const Vector3& s = Vector3::Zero()
+    );
+
+    // Is s free along some direction?
+    bool slides() const { return k < 3; }
+
+    // The residual g - C^T s, in three components of which k count
+    Vector3 residual(const Vector3& s) const
+    {
+        Vector3 r = Vector3::Zero();
+        r.head(k) = g() - C().transpose()*s;
+        return r;
+    }
+};
+
+using ControlPoints = std::vector<ControlPoint>;
+
+// A total order by position: decides between equals in the same way wherever
+// the points are
+bool before(const Vector3& a, const Vector3& b);
+
+// The positions as columns
+Columns positions(const ControlPoints& points);
+
+// Thrown where two control points at one place contradict each other
+struct ConflictingControlPoints
+:
+    std::invalid_argument
+{
+    ConflictingControlPoints(const Vector3& x, double difference);
+
+    Vector3 position;
+    double difference;
+};
+
+// Of control points at exactly the same position keeps the one with most
+// conditions (fixed and moving before edge before surface; of equals the first)
+// and returns their indices in ascending order. Throws ConflictingControlPoints
+// where the conditions of one that is dropped are not met by the one that is
+// kept to within tolerance [m].
+std::vector<Index> withoutDuplicates
+(
+    const ControlPoints& points,
+    double tolerance
+);
+
+} // namespace morph
+
+#endif

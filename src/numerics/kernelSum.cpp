@@ -1,0 +1,177 @@
+#include "kernelSum.hpp"
+
+#include "radialFunctions.hpp"
+
+// One binary for every x86-64 machine: the loops are compiled for several
+// instruction sets and the best is chosen when the library is loaded.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+    #if __GNUC__ >= 12
+        #define MORPH_MULTIVERSION __attribute__((target_clones \
+            ("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+    #else
+        #define MORPH_MULTIVERSION __attribute__((target_clones \
+            ("avx512f", "avx2", "default")))
+    #endif
+#else
+    #define MORPH_MULTIVERSION
+#endif
+
+namespace morph
+{
+
+namespace
+{
+
+template<class Formula>
+inline __attribute__((always_inline))
+void addBlock
+(
+    Formula,
+    const double* __restrict__ x,
+    const double* __restrict__ y,
+    const double* __restrict__ z,
+    const double* const centres[3],
+    const double* const weights[3],
+    Index nCentres,
+    double* __restrict__ sumX,
+    double* __restrict__ sumY,
+    double* __restrict__ sumZ
+)
+{
+    for (Index j = 0; j < nCentres; ++j)
+    {
+        const double cx = centres[0][j];
+        const double cy = centres[1][j];
+        const double cz = centres[2][j];
+        const double wx = weights[0][j];
+        const double wy = weights[1][j];
+        const double wz = weights[2][j];
+
+        for (Index i = 0; i < blockSize; ++i)
+        {
+            const double dx = x[i] - cx;
+            const double dy = y[i] - cy;
+            const double dz = z[i] - cz;
+            const double phi = Formula::value(dx*dx + dy*dy + dz*dz);
+            sumX[i] += phi*wx;
+            sumY[i] += phi*wy;
+            sumZ[i] += phi*wz;
+        }
+    }
+}
+
+
+template<class Formula>
+inline __attribute__((always_inline))
+void fillColumn
+(
+    Formula,
+    const double* __restrict__ x,
+    const double* __restrict__ y,
+    const double* __restrict__ z,
+    Index n,
+    const double centre[3],
+    double inverseRadius2,
+    double* __restrict__ column
+)
+{
+    for (Index i = 0; i < n; ++i)
+    {
+        const double dx = x[i] - centre[0];
+        const double dy = y[i] - centre[1];
+        const double dz = z[i] - centre[2];
+        column[i] =
+            Formula::value((dx*dx + dy*dy + dz*dz)*inverseRadius2);
+    }
+}
+
+} // namespace
+
+
+MORPH_MULTIVERSION
+void addKernelSum
+(
+    KernelType type,
+    const double* const points[3],
+    Index nPoints,
+    const double* const centres[3],
+    const double* const weights[3],
+    Index nCentres,
+    double* const sums[3]
+)
+{
+    radial::dispatch
+    (
+        type,
+        [&](auto formula) __attribute__((always_inline))
+        {
+            for (Index i = 0; i < nPoints; i += blockSize)
+            {
+                addBlock
+                (
+                    formula,
+                    points[0] + i,
+                    points[1] + i,
+                    points[2] + i,
+                    centres,
+                    weights,
+                    nCentres,
+                    sums[0] + i,
+                    sums[1] + i,
+                    sums[2] + i
+                );
+            }
+        }
+    );
+}
+
+
+MORPH_MULTIVERSION
+static void fillMatrix
+(
+    KernelType type,
+    const double* const a[3],
+    Index nA,
+    const double* const b[3],
+    Index nB,
+    double inverseRadius2,
+    double* values
+)
+{
+    radial::dispatch
+    (
+        type,
+        [&](auto formula) __attribute__((always_inline))
+        {
+            for (Index j = 0; j < nB; ++j)
+            {
+                const double centre[3] = {b[0][j], b[1][j], b[2][j]};
+                fillColumn
+                (
+                    formula, a[0], a[1], a[2], nA, centre,
+                    inverseRadius2, values + j*nA
+                );
+            }
+        }
+    );
+}
+
+
+Matrix kernelMatrix(const Kernel& kernel, const Columns& a, const Columns& b)
+{
+    Matrix phi(a.rows(), b.rows());
+    const double* const columnsA[3] =
+        {a.col(0).data(), a.col(1).data(), a.col(2).data()};
+    const double* const columnsB[3] =
+        {b.col(0).data(), b.col(1).data(), b.col(2).data()};
+    const double r0 = kernel.supportRadius();
+
+    fillMatrix
+    (
+        kernel.type(), columnsA, a.rows(), columnsB, b.rows(),
+        1/(r0*r0), phi.data()
+    );
+    return phi;
+}
+
+} // namespace morph

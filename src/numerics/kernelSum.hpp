@@ -1,0 +1,38 @@
+// The two loops over pairs of points in which the time goes.
+
+#ifndef morph_kernelSum_hpp
+#define morph_kernelSum_hpp
+
+#include "arrays.hpp"
+#include "kernel.hpp"
+
+namespace morph
+{
+
+// Points are summed in blocks of this size, always whole ones: a point's sum
+// then never depends on its place in a block, which makes the result
+// independent of how points are distributed.
+constexpr Index blockSize = 32;
+
+// Adds sum_j phi(|x_i - c_j|/r0) w_j to s_i for the points i of whole blocks.
+//
+// points, sums: n x 3 columns (n a multiple of blockSize) given by the pointers
+// to their columns; centres, weights: m x 3 likewise. Positions are in units of
+// the support radius.
+void addKernelSum
+(
+    KernelType type,
+    const double* const points[3],
+    Index nPoints,
+    const double* const centres[3],
+    const double* const weights[3],
+    Index nCentres,
+    double* const sums[3]
+);
+
+// phi(|a_i - b_j|/r0) of all pairs (n x m) of positions in metres
+Matrix kernelMatrix(const Kernel& kernel, const Columns& a, const Columns& b);
+
+} // namespace morph
+
+#endif

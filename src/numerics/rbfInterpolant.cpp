@@ -1,0 +1,105 @@
+#include "rbfInterpolant.hpp"
+
+#include "kernelSum.hpp"
+
+namespace morph
+{
+
+RbfInterpolant::RbfInterpolant(const Kernel& kernel)
+:
+    kernel_(kernel),
+    centres_(0, 3),
+    weights_(0, 3),
+    polynomial_(false),
+    origin_(Vector3::Zero()),
+    offset_(Vector3::Zero()),
+    gradient_(Eigen::Matrix3d::Zero())
+{}
+
+
+void RbfInterpolant::set(const Columns& centres, const Columns& weights)
+{
+    centres_ = centres;
+    weights_ = weights;
+}
+
+
+void RbfInterpolant::setPolynomial
+(
+    const Vector3& origin,
+    const Vector3& offset,
+    const Eigen::Matrix3d& gradient
+)
+{
+    polynomial_ = true;
+    origin_ = origin;
+    offset_ = offset;
+    gradient_ = gradient;
+}
+
+
+Vectors RbfInterpolant::operator()(const PointCloud& points) const
+{
+    Vectors s(points.size(), 3);
+
+    const double scale = 1/kernel_.supportRadius();
+    const double reach2 =
+        kernel_.supportRadius()*kernel_.supportRadius();
+    const Index n = centres_.rows();
+
+    Columns c(n, 3), w(n, 3), x, sums;
+    for (const PointCloud::Leaf& leaf : points.leaves())
+    {
+        Index m = 0;
+        for (Index j = 0; j < n; ++j)
+        {
+            const Vector3 centre = centres_.row(j).transpose();
+            if (!kernel_.compact() || leaf.distance2(centre) < reach2)
+            {
+                c.row(m) = scale*centres_.row(j);
+                w.row(m) = weights_.row(j);
+                ++m;
+            }
+        }
+
+        const Index size = leaf.end - leaf.begin;
+        x = scale*points.sorted().middleRows(leaf.begin, size);
+        sums = Columns::Zero(size, 3);
+
+        const double* const xs[3] =
+            {x.col(0).data(), x.col(1).data(), x.col(2).data()};
+        const double* const cs[3] =
+            {c.col(0).data(), c.col(1).data(), c.col(2).data()};
+        const double* const ws[3] =
+            {w.col(0).data(), w.col(1).data(), w.col(2).data()};
+        double* const ss[3] =
+            {sums.col(0).data(), sums.col(1).data(), sums.col(2).data()};
+        addKernelSum(kernel_.type(), xs, size, cs, ws, m, ss);
+
+        if (polynomial_)
+        {
+            for (Index i = 0; i < leaf.count; ++i)
+            {
+                const Vector3 d =
+                    points.sorted().row(leaf.begin + i).transpose() - origin_;
+                sums.row(i) +=
+                    (offset_ + gradient_.transpose()*d).transpose();
+            }
+        }
+
+        for (Index i = 0; i < leaf.count; ++i)
+        {
+            s.row(points.index()[leaf.begin + i]) = sums.row(i);
+        }
+    }
+
+    return s;
+}
+
+
+Vectors RbfInterpolant::operator()(const Vectors& points) const
+{
+    return (*this)(PointCloud(points));
+}
+
+} // namespace morph
