@@ -271,7 +271,10 @@ static void write(const regIOobject& object)
             << ": is the disk full, or the folder read-only?"
             << exit(FatalError);
     }
-    Info<< "Wrote " << object.instance()/object.local()/object.name() << endl;
+    Info<< "Wrote "
+        << (object.instance()/object.db().dbDir()/object.local()/object.name())
+            .c_str()
+        << endl;
 }
 
 
@@ -315,7 +318,7 @@ static void keepReference(const fvMesh& mesh)
     const bool found = io.typeHeaderOk<pointIOField>(true);
     if (returnReduce(found, andOp<bool>()))
     {
-        Info<< "Kept  constant/polyMesh/points0" << endl;
+        Info<< "Kept the points0 there is" << endl;
         return;
     }
 
@@ -419,7 +422,7 @@ static void writeQuality
         before.writeRow(os, "before");
         after.writeRow(os, "after");
     }
-    Info<< "Wrote " << file << endl;
+    Info<< "Wrote " << file.c_str() << endl;
 }
 
 
@@ -549,7 +552,7 @@ int main(int argc, char *argv[])
     {
         Info<< "Dry run, nothing is written. The moved mesh is valid: "
             << (overwrite ? runTime.constant() : runTime.timeName())
-            << "/polyMesh/points and " << qualityFile(mesh)
+            << "/polyMesh/points and " << qualityFile(mesh).c_str()
             << " would be written." << endl;
     }
     else
@@ -564,7 +567,15 @@ int main(int argc, char *argv[])
         << ", write " << clock.timeIncrement()
         << nl << nl << (after.valid() ? "End" : "Failed") << nl << endl;
 
-    return after.valid() ? 0 : 1;
+    if (!after.valid())
+    {
+        // Not by return: the end of argList ends the program with status 0.
+        // The reduction lets the master finish what it has to say
+        returnReduce(true, andOp<bool>());
+        Pstream::exit(1);
+    }
+
+    return 0;
 }
 
 

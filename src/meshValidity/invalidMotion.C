@@ -27,33 +27,15 @@ License
 namespace Foam
 {
 
-//- A volume and the place it is found at
-typedef Tuple2<scalar, point> volumeAt;
+//- A place and its rank among the places that are as bad
+typedef Tuple2<scalar, point> rankedPoint;
 
 
-//- The smaller volume; of equal ones that with the lower coordinates, so that
-//  the choice does not depend on the decomposition
-struct smallerVolumeOp
+struct lowerRankOp
 {
-    volumeAt operator()(const volumeAt& a, const volumeAt& b) const
+    rankedPoint operator()(const rankedPoint& a, const rankedPoint& b) const
     {
-        if (a.first() != b.first())
-        {
-            return a.first() < b.first() ? a : b;
-        }
-
-        for (direction cmpt = 0; cmpt < point::nComponents; ++cmpt)
-        {
-            const scalar ac = a.second()[cmpt];
-            const scalar bc = b.second()[cmpt];
-
-            if (ac != bc)
-            {
-                return ac < bc ? a : b;
-            }
-        }
-
-        return a;
+        return b.first() < a.first() ? b : a;
     }
 };
 
@@ -68,6 +50,44 @@ static inline scalar worth(const scalar volume)
 static inline label countAll(const bitSet& local)
 {
     return returnReduce(label(local.count()), sumOp<label>());
+}
+
+
+//- The place of the smallest of the selected volumes of all ranks. In regular
+//  meshes several are the same but for round-off, which depends on the
+//  decomposition: of these the first in a direction that no mesh is aligned to
+template<class VolumeOf>
+static point worstOf
+(
+    const bitSet& selected,
+    const VolumeOf& volumeOf,
+    const vectorField& centres
+)
+{
+    const vector direction(1, 0.7548776662466927, 0.5698402909980532);
+
+    scalar smallest = VGREAT;
+    for (const label i : selected)
+    {
+        smallest = min(smallest, worth(volumeOf(i)));
+    }
+    reduce(smallest, minOp<scalar>());
+
+    rankedPoint worst(VGREAT, Zero);
+    for (const label i : selected)
+    {
+        if (worth(volumeOf(i)) <= smallest + 1e-6*mag(smallest))
+        {
+            worst = lowerRankOp()
+            (
+                worst,
+                rankedPoint(centres[i] & direction, centres[i])
+            );
+        }
+    }
+    reduce(worst, lowerRankOp());
+
+    return worst.second();
 }
 
 } // End namespace Foam
@@ -118,41 +138,24 @@ void Foam::invalidMotion::locate
     const bitSet& cells
 )
 {
-    const smallerVolumeOp smaller;
-    volumeAt worst(VGREAT, point::max);
-
     if (nFaces_)
     {
-        for (const label facei : faces)
-        {
-            worst = smaller
-            (
-                worst,
-                volumeAt
-                (
-                    worth(geometry.pyramidVolume(facei)),
-                    geometry.faceCentres()[facei]
-                )
-            );
-        }
+        where_ = worstOf
+        (
+            faces,
+            [&](const label facei){ return geometry.pyramidVolume(facei); },
+            geometry.faceCentres()
+        );
     }
-    else
+    else if (nCells_)
     {
-        for (const label celli : cells)
-        {
-            worst = smaller
-            (
-                worst,
-                volumeAt
-                (
-                    worth(geometry.cellVolumes()[celli]),
-                    geometry.cellCentres()[celli]
-                )
-            );
-        }
+        where_ = worstOf
+        (
+            cells,
+            [&](const label celli){ return geometry.cellVolumes()[celli]; },
+            geometry.cellCentres()
+        );
     }
-
-    where_ = returnReduce(worst, smaller).second();
 }
 
 
