@@ -318,6 +318,19 @@ static void keepReference(const fvMesh& mesh)
     const bool found = io.typeHeaderOk<pointIOField>(true);
     if (returnReduce(found, andOp<bool>()))
     {
+        const pointIOField points0
+        (
+            pointsFile("points0", constant, mesh, IOobject::MUST_READ)
+        );
+        const bool fits = points0.size() == mesh.nPoints();
+        if (!returnReduce(fits, andOp<bool>()))
+        {
+            FatalErrorInFunction
+                << "There are " << points0.size() << " points in "
+                << mesh.time().relativePath(io.objectPath())
+                << " and " << mesh.nPoints() << " in the mesh: it is left"
+                << " from another mesh. Remove it" << exit(FatalError);
+        }
         Info<< "Kept the points0 there is" << endl;
         return;
     }
@@ -427,19 +440,15 @@ static void writeQuality
 
 
 //- Say what makes the mesh invalid
-static void reportInvalid
-(
-    const fvMesh& mesh,
-    const pointField& newPoints,
-    const meshQuality& before
-)
+static void reportInvalid(const fvMesh& mesh, const pointField& newPoints)
 {
     Info<< nl << "The moved mesh would be invalid: it has "
         << invalidMotion(mesh, newPoints) << '.' << nl
-        << "Before the motion it had " << before.nWrongFaces()
-        << " and " << before.nNonPositiveCells() << '.' << nl
+        << "Of these the motion makes "
+        << invalidMotion(mesh, mesh.points(), newPoints) << '.' << nl
         << "Nothing was written. Move by less, or let the motion reach"
-        << " further into the mesh (larger support radius, other diffusivity)."
+        << " further into the mesh (larger support radius, other diffusivity);"
+        << " what the motion does not make needs a better mesh to start from."
         << endl;
 }
 
@@ -546,7 +555,7 @@ int main(int argc, char *argv[])
 
     if (!after.valid())
     {
-        reportInvalid(mesh, newPoints, before);
+        reportInvalid(mesh, newPoints);
     }
     else if (args.found("dryRun"))
     {

@@ -56,11 +56,10 @@ static inline label countAll(const bitSet& local)
 //- The place of the smallest of the selected volumes of all ranks. In regular
 //  meshes several are the same but for round-off, which depends on the
 //  decomposition: of these the first in a direction that no mesh is aligned to
-template<class VolumeOf>
 static point worstOf
 (
     const bitSet& selected,
-    const VolumeOf& volumeOf,
+    const scalarField& volumes,
     const vectorField& centres
 )
 {
@@ -69,14 +68,14 @@ static point worstOf
     scalar smallest = VGREAT;
     for (const label i : selected)
     {
-        smallest = min(smallest, worth(volumeOf(i)));
+        smallest = min(smallest, worth(volumes[i]));
     }
     reduce(smallest, minOp<scalar>());
 
     rankedPoint worst(VGREAT, Zero);
     for (const label i : selected)
     {
-        if (worth(volumeOf(i)) <= smallest + 1e-6*mag(smallest))
+        if (worth(volumes[i]) <= smallest + 1e-6*mag(smallest))
         {
             worst = lowerRankOp()
             (
@@ -102,9 +101,11 @@ void Foam::invalidMotion::check
     const pointField& points
 )
 {
-    const movedGeometry geometry(mesh, points);
-    bitSet cells(geometry.nonPositiveCells());
-    bitSet faces(geometry.wrongFaces());
+    typedef movedGeometry geometry;
+
+    const geometry after(mesh, points);
+    bitSet faces(geometry::nonPositive(after.pyramidVolumes()));
+    bitSet cells(geometry::nonPositive(after.cellVolumes()));
 
     // All that a valid motion pays for
     const label nLocal = faces.count() + cells.count();
@@ -113,13 +114,14 @@ void Foam::invalidMotion::check
         return;
     }
 
-    faces = geometry.syncedWrongFaces();
+    const scalarField pyramids(after.syncedPyramidVolumes());
+    faces = geometry::nonPositive(pyramids);
 
     if (reference)
     {
-        const movedGeometry before(mesh, *reference);
-        faces -= before.syncedWrongFaces();
-        cells -= before.nonPositiveCells();
+        const geometry before(mesh, *reference);
+        faces -= geometry::nonPositive(before.syncedPyramidVolumes());
+        cells -= geometry::nonPositive(before.cellVolumes());
     }
 
     faces &= syncTools::getMasterFaces(mesh);
@@ -127,34 +129,13 @@ void Foam::invalidMotion::check
     nFaces_ = countAll(faces);
     nCells_ = countAll(cells);
 
-    locate(geometry, faces, cells);
-}
-
-
-void Foam::invalidMotion::locate
-(
-    const movedGeometry& geometry,
-    const bitSet& faces,
-    const bitSet& cells
-)
-{
     if (nFaces_)
     {
-        where_ = worstOf
-        (
-            faces,
-            [&](const label facei){ return geometry.pyramidVolume(facei); },
-            geometry.faceCentres()
-        );
+        where_ = worstOf(faces, pyramids, after.faceCentres());
     }
     else if (nCells_)
     {
-        where_ = worstOf
-        (
-            cells,
-            [&](const label celli){ return geometry.cellVolumes()[celli]; },
-            geometry.cellCentres()
-        );
+        where_ = worstOf(cells, after.cellVolumes(), after.cellCentres());
     }
 }
 

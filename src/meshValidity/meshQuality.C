@@ -49,7 +49,10 @@ void Foam::meshQuality::checkCells
     minVolume_ = gMin(geometry.cellVolumes());
     nNonPositiveCells_ = returnReduce
     (
-        label(geometry.nonPositiveCells().count()),
+        label
+        (
+            movedGeometry::nonPositive(geometry.cellVolumes()).count()
+        ),
         sumOp<label>()
     );
     maxAspectRatio_ = gMax(aspectRatio);
@@ -88,7 +91,7 @@ void Foam::meshQuality::checkFaces
     );
     maxSkewness_ = gMax(skewness);
 
-    bitSet wrong(geometry.syncedWrongFaces());
+    bitSet wrong(movedGeometry::nonPositive(geometry.syncedPyramidVolumes()));
     wrong &= syncTools::getMasterFaces(mesh);
     nWrongFaces_ = returnReduce(label(wrong.count()), sumOp<label>());
 }

@@ -48,63 +48,68 @@ Foam::movedGeometry::movedGeometry
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::movedGeometry::pyramidVolume(const label facei) const
+Foam::scalarField Foam::movedGeometry::pyramidVolumes() const
 {
-    const vector& area = faceAreas_[facei];
-    const point& centre = faceCentres_[facei];
+    const labelList& own = mesh_.faceOwner();
+    const labelList& nei = mesh_.faceNeighbour();
 
-    const scalar own =
-        (area & (centre - cellCentres_[mesh_.faceOwner()[facei]]))/3;
+    scalarField volumes(mesh_.nFaces());
 
-    if (!mesh_.isInternalFace(facei))
+    forAll(volumes, facei)
     {
-        return own;
+        volumes[facei] =
+            faceAreas_[facei]
+          & (faceCentres_[facei] - cellCentres_[own[facei]]);
     }
 
-    const scalar nei =
-        (area & (cellCentres_[mesh_.faceNeighbour()[facei]] - centre))/3;
-
-    // Not min(): it hides the one that is not a number
-    return own == own && !(nei > own) ? nei : own;
-}
-
-
-Foam::bitSet Foam::movedGeometry::nonPositiveCells() const
-{
-    bitSet wrong(mesh_.nCells());
-
-    forAll(cellVolumes_, celli)
+    forAll(nei, facei)
     {
-        if (!(cellVolumes_[celli] > 0))
+        const scalar other =
+            faceAreas_[facei]
+          & (cellCentres_[nei[facei]] - faceCentres_[facei]);
+
+        // Unlike min() this does not lose what is not a number
+        if (!(other >= volumes[facei]) && volumes[facei] == volumes[facei])
         {
-            wrong.set(celli);
+            volumes[facei] = other;
         }
     }
 
-    return wrong;
+    volumes /= 3;
+    return volumes;
 }
 
 
-Foam::bitSet Foam::movedGeometry::wrongFaces() const
+Foam::scalarField Foam::movedGeometry::syncedPyramidVolumes() const
 {
-    bitSet wrong(mesh_.nFaces());
+    scalarField volumes(pyramidVolumes());
 
-    forAll(faceAreas_, facei)
+    // What is not a number would depend on the order of comparison
+    for (scalar& volume : volumes)
     {
-        if (!(pyramidVolume(facei) > 0))
+        if (volume != volume)
         {
-            wrong.set(facei);
+            volume = -VGREAT;
         }
     }
 
-    return wrong;
+    syncTools::syncFaceList(mesh_, volumes, minEqOp<scalar>());
+    return volumes;
 }
 
 
-Foam::bitSet Foam::movedGeometry::syncedWrongFaces() const
+Foam::bitSet Foam::movedGeometry::nonPositive(const scalarField& volumes)
 {
-    bitSet wrong(wrongFaces());
-    syncTools::syncFaceList(mesh_, wrong, orEqOp<unsigned int>());
+    bitSet wrong(volumes.size());
+
+    forAll(volumes, i)
+    {
+        if (!(volumes[i] > 0))
+        {
+            wrong.set(i);
+        }
+    }
+
     return wrong;
 }
 

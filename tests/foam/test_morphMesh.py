@@ -366,6 +366,23 @@ def test_wrong_faces_and_cells_are_counted_as_checkMesh_counts_them(tangled):
     same_figures(figures["after"], checked)
 
 
+def test_what_was_wrong_before_is_not_laid_to_the_motion(tangled):
+    output = tangled.run("morphMesh", status=1)
+    assert "the motion makes 0 wrongly oriented faces and 0 cells without" \
+        in output
+
+    # Now every cell turns inside out: what was wrong does not count
+    was = quality(output)["before"]
+    tangled.write("0/pointDisplacement", *field("", "0 1 0 0 0 0 0", "0 0 -3"))
+    output = tangled.run("morphMesh", status=1)
+    figures = quality(output)["after"]
+    made = re.search(r"the motion makes (\d+) .* and (\d+) cells", output)
+    assert 0 < figures["wronglyOrientedFaces"] - int(made.group(1)) \
+        <= was["wronglyOrientedFaces"]
+    assert 0 <= figures["nonPositiveCells"] - int(made.group(2)) \
+        <= was["nonPositiveCells"]
+
+
 def test_wrong_faces_between_two_ranks_count_once(tangled):
     serial = tangled.run("morphMesh", status=1)
     tangled.decompose((2, 1, 1))
@@ -431,6 +448,18 @@ def empty_list(case):
     case.write("constant/dynamicMeshDict", "dictionary", "solvers {}")
 
 
+def points0_of_another_mesh(case):
+    case.write("constant/dynamicMeshDict", "dictionary",
+               "motionSolver velocityLaplacian; diffusivity uniform;"
+               "motionSolverLibs (fvMotionSolvers);")
+    case.write("0/pointMotionU",
+               *field("pointMotionU", "0 1 -1 0 0 0 0", "0 0 0.1"))
+    # Put where both the whole and the decomposed case look for it
+    for mesh in case.path.rglob("polyMesh"):
+        case.write(mesh.relative_to(case.path)/"points0", "vectorField",
+                   "1((0 0 0))")
+
+
 def nothing(case):
     pass
 
@@ -453,6 +482,9 @@ WRONG = {
                               "displacementLaplacian"]),
     "empty list of solvers":
         (empty_list, (), ["no motion solver is given"]),
+    "points0 of another mesh":
+        (points0_of_another_mesh, ("-overwrite",),
+         ["1 points in", "left from another mesh", "Remove it"]),
     "unknown option":
         (nothing, ("-overwritten",), ["overwritten"]),
 }
@@ -466,6 +498,7 @@ def test_wrong_input_is_an_error_that_writes_nothing(tmp_path, wrong, ranks):
     spoil(case)
     if ranks > 1:
         case.decompose((2, 1, 1))
+        spoil(case)
     before = case.tree()
     output = case.run("morphMesh", *options, ranks=ranks, status=1)
     assert case.tree() == before
