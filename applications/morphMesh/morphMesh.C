@@ -86,6 +86,21 @@ using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
+//- The times that have a folder, for messages
+static wordList timeNames(const Time& runTime)
+{
+    DynamicList<word> names;
+    for (const instant& time : runTime.times())
+    {
+        if (time.name() != runTime.constant())
+        {
+            names.append(time.name());
+        }
+    }
+    return wordList(names);
+}
+
+
 //- The existing time that option -time means, or else the time it names
 static void selectTime(const argList& args, Time& runTime)
 {
@@ -101,7 +116,7 @@ static void selectTime(const argList& args, Time& runTime)
         FatalErrorInFunction
             << "The option -time is '" << name << "', which is no number."
             << " The times of this case are "
-            << flatOutput(runTime.times()) << "; give one time, for example"
+            << flatOutput(timeNames(runTime)) << "; give one time, for example"
             << " -time 0" << exit(FatalError);
     }
 
@@ -118,7 +133,7 @@ static void selectTime(const argList& args, Time& runTime)
 
     runTime.setTime(value, 0);
     Info<< "Time " << runTime.timeName() << " has no folder, only "
-        << flatOutput(times) << " have: the mesh is that of the time before,"
+        << flatOutput(timeNames(runTime)) << " have: the mesh is that of the time before,"
         << " and a motion solver that reads a field from this time will stop."
         << nl << endl;
 }
