@@ -123,7 +123,8 @@ static void selectTime(const argList& args, Time& runTime)
     const instantList times(runTime.times());
     const label index = Time::findClosestTimeIndex(times, value, "constant");
     const bool found =
-        index >= 0 && mag(times[index].value() - value) < SMALL + SMALL*value;
+        index >= 0
+     && mag(times[index].value() - value) <= 10*SMALL*mag(value);
 
     if (returnReduce(found, andOp<bool>()))
     {
@@ -132,8 +133,9 @@ static void selectTime(const argList& args, Time& runTime)
     }
 
     runTime.setTime(value, 0);
-    Info<< "Time " << runTime.timeName() << " has no folder, only "
-        << flatOutput(timeNames(runTime)) << " have: the mesh is that of the time before,"
+    Info<< "Time " << runTime.timeName() << " has no folder (there are "
+        << flatOutput(timeNames(runTime))
+        << "): the mesh is that of the time before,"
         << " and a motion solver that reads a field from this time will stop."
         << nl << endl;
 }
