@@ -1,0 +1,190 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "invalidMotion.H"
+#include "movedGeometry.H"
+#include "syncTools.H"
+#include "Tuple2.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- A place and its rank among the places that are as bad
+typedef Tuple2<scalar, point> rankedPoint;
+
+
+struct lowerRankOp
+{
+    rankedPoint operator()(const rankedPoint& a, const rankedPoint& b) const
+    {
+        return b.first() < a.first() ? b : a;
+    }
+};
+
+
+//- What is not a number is worse than any volume
+static inline scalar worth(const scalar volume)
+{
+    return volume == volume ? volume : -VGREAT;
+}
+
+
+static inline label countAll(const bitSet& local)
+{
+    return returnReduce(label(local.count()), sumOp<label>());
+}
+
+
+//- The place of the smallest of the selected volumes of all ranks. In regular
+//  meshes several are the same but for round-off, which depends on the
+//  decomposition: of these the first in a direction that no mesh is aligned to
+static point worstOf
+(
+    const bitSet& selected,
+    const scalarField& volumes,
+    const vectorField& centres
+)
+{
+    const vector direction(1, 0.7548776662466927, 0.5698402909980532);
+
+    scalar smallest = VGREAT;
+    for (const label i : selected)
+    {
+        smallest = min(smallest, worth(volumes[i]));
+    }
+    reduce(smallest, minOp<scalar>());
+
+    rankedPoint worst(VGREAT, Zero);
+    for (const label i : selected)
+    {
+        if (worth(volumes[i]) <= smallest + 1e-6*mag(smallest))
+        {
+            worst = lowerRankOp()
+            (
+                worst,
+                rankedPoint(centres[i] & direction, centres[i])
+            );
+        }
+    }
+    reduce(worst, lowerRankOp());
+
+    return worst.second();
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::invalidMotion::check
+(
+    const polyMesh& mesh,
+    const pointField* reference,
+    const pointField& points
+)
+{
+    typedef movedGeometry geometry;
+
+    const geometry after(mesh, points);
+    bitSet faces(geometry::nonPositive(after.pyramidVolumes()));
+    bitSet cells(geometry::nonPositive(after.cellVolumes()));
+
+    // All that a valid motion pays for
+    const label nLocal = faces.count() + cells.count();
+    if (returnReduce(nLocal, sumOp<label>()) == 0)
+    {
+        return;
+    }
+
+    const scalarField pyramids(after.syncedPyramidVolumes());
+    faces = geometry::nonPositive(pyramids);
+
+    if (reference)
+    {
+        const geometry before(mesh, *reference);
+        faces -= geometry::nonPositive(before.syncedPyramidVolumes());
+        cells -= geometry::nonPositive(before.cellVolumes());
+    }
+
+    faces &= syncTools::getMasterFaces(mesh);
+
+    nFaces_ = countAll(faces);
+    nCells_ = countAll(cells);
+
+    if (nFaces_)
+    {
+        where_ = worstOf(faces, pyramids, after.faceCentres());
+    }
+    else if (nCells_)
+    {
+        where_ = worstOf(cells, after.cellVolumes(), after.cellCentres());
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::invalidMotion::invalidMotion
+(
+    const polyMesh& mesh,
+    const pointField& points
+)
+:
+    nFaces_(0),
+    nCells_(0),
+    where_(Zero)
+{
+    check(mesh, nullptr, points);
+}
+
+
+Foam::invalidMotion::invalidMotion
+(
+    const polyMesh& mesh,
+    const pointField& reference,
+    const pointField& points
+)
+:
+    nFaces_(0),
+    nCells_(0),
+    where_(Zero)
+{
+    check(mesh, &reference, points);
+}
+
+
+// * * * * * * * * * * * * * * * Ostream Operator  * * * * * * * * * * * * * //
+
+Foam::Ostream& Foam::operator<<(Ostream& os, const invalidMotion& invalid)
+{
+    os  << invalid.nFaces_ << " wrongly oriented faces and "
+        << invalid.nCells_ << " cells without positive volume";
+
+    if (!invalid.empty())
+    {
+        os  << ", the worst at " << invalid.where_;
+    }
+
+    return os;
+}
+
+
+// ************************************************************************* //

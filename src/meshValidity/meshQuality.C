@@ -1,0 +1,142 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "meshQuality.H"
+#include "movedGeometry.H"
+#include "polyMeshTools.H"
+#include "syncTools.H"
+#include "unitConversion.H"
+#include "IOmanip.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::meshQuality::checkCells
+(
+    const polyMesh& mesh,
+    const movedGeometry& geometry
+)
+{
+    // The openness is of no use here: a motion cannot open a cell
+    scalarField openness;
+    scalarField aspectRatio;
+    primitiveMeshTools::cellClosedness
+    (
+        mesh,
+        mesh.geometricD(),
+        geometry.faceAreas(),
+        geometry.cellVolumes(),
+        openness,
+        aspectRatio
+    );
+
+    nCells_ = returnReduce(mesh.nCells(), sumOp<label>());
+    minVolume_ = gMin(geometry.cellVolumes());
+    nNonPositiveCells_ = returnReduce
+    (
+        label
+        (
+            movedGeometry::nonPositive(geometry.cellVolumes()).count()
+        ),
+        sumOp<label>()
+    );
+    maxAspectRatio_ = gMax(aspectRatio);
+}
+
+
+void Foam::meshQuality::checkFaces
+(
+    const polyMesh& mesh,
+    const movedGeometry& geometry,
+    const pointField& points
+)
+{
+    const scalarField cosines
+    (
+        polyMeshTools::faceOrthogonality
+        (
+            mesh,
+            geometry.faceAreas(),
+            geometry.cellCentres()
+        )
+    );
+    maxNonOrthogonality_ =
+        radToDeg(::acos(max(-1.0, min(1.0, gMin(cosines)))));
+
+    const scalarField skewness
+    (
+        polyMeshTools::faceSkewness
+        (
+            mesh,
+            points,
+            geometry.faceCentres(),
+            geometry.faceAreas(),
+            geometry.cellCentres()
+        )
+    );
+    maxSkewness_ = gMax(skewness);
+
+    bitSet wrong(movedGeometry::nonPositive(geometry.syncedPyramidVolumes()));
+    wrong &= syncTools::getMasterFaces(mesh);
+    nWrongFaces_ = returnReduce(label(wrong.count()), sumOp<label>());
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::meshQuality::meshQuality(const polyMesh& mesh, const pointField& points)
+{
+    const movedGeometry geometry(mesh, points);
+    checkCells(mesh, geometry);
+    checkFaces(mesh, geometry, points);
+}
+
+
+// * * * * * * * * * * * * * * * * * Write * * * * * * * * * * * * * * * * * //
+
+void Foam::meshQuality::writeHeader(Ostream& os)
+{
+    os  << "# mesh  " << setw(10) << "cells"
+        << ' ' << setw(18) << "minVolume"
+        << ' ' << setw(19) << "maxNonOrthogonality"
+        << ' ' << setw(18) << "maxSkewness"
+        << ' ' << setw(18) << "maxAspectRatio"
+        << ' ' << setw(20) << "wronglyOrientedFaces"
+        << ' ' << setw(16) << "nonPositiveCells" << endl;
+}
+
+
+void Foam::meshQuality::writeRow(Ostream& os, const word& name) const
+{
+    os  << name.c_str();
+    for (label i = name.size(); i < 8; ++i)
+    {
+        os  << ' ';
+    }
+
+    os  << setw(10) << nCells_
+        << ' ' << setw(18) << minVolume_
+        << ' ' << setw(19) << maxNonOrthogonality_
+        << ' ' << setw(18) << maxSkewness_
+        << ' ' << setw(18) << maxAspectRatio_
+        << ' ' << setw(20) << nWrongFaces_
+        << ' ' << setw(16) << nNonPositiveCells_ << endl;
+}
+
+
+// ************************************************************************* //
