@@ -271,6 +271,24 @@ double moderateRadius(KernelType type)
 }
 
 
+RbfInterpolant throughAll
+(
+    const Kernel& kernel,
+    Polynomial polynomial,
+    const ControlPoints& points
+)
+{
+    SelectionSettings settings;
+    settings.all = true;
+    IncrementalSelection selection(kernel, polynomial, settings);
+    SerialCommunicator alone;
+    const SelectionResult result = selection.select(points, alone);
+    EXPECT_EQ(result.selected, Index(points.size()));
+    EXPECT_EQ(result.rejected, 0);
+    return selection.interpolant();
+}
+
+
 namespace reference
 {
 

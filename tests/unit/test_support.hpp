@@ -6,6 +6,7 @@
 
 #include "communicator.hpp"
 #include "controlPoints.hpp"
+#include "incrementalSelection.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 
@@ -41,8 +42,8 @@ public:
 
     double uniform(double low = 0, double high = 1);
     Index below(Index n);
-    Vector3 inBox();            // in [-1,1]^3
-    Vector3 direction();        // of unit length
+    Vector3 inBox();        // in [-1,1]^3
+    Vector3 direction();    // of unit length
     std::vector<Index> permutation(Index n);
 
     // In [0,1]^dimension (third coordinate 0.3 in 2D), further apart than given
@@ -82,6 +83,14 @@ std::vector<KernelType> positiveDefiniteKernels();
 // others, small enough that the system is well conditioned
 double moderateRadius(KernelType type);
 
+// The interpolant through all points, none left out
+RbfInterpolant throughAll
+(
+    const Kernel& kernel,
+    Polynomial polynomial,
+    const ControlPoints& points
+);
+
 
 // Independent computations in long double. Nothing in here calls the code under
 // test.
@@ -91,8 +100,8 @@ namespace reference
 using Real = long double;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
-// The coefficients of the Wendland function of smoothness 2k in R^3 by Wendland's
-// construction: phi_{3,k} = I^k (1 - d)^(k + 2), I f(d) = int_d^1 t f(t) dt
+// The coefficients of the Wendland function of smoothness 2k in R^3 by
+// Wendland's construction: phi_{3,k} = I^k (1 - d)^(k + 2), I f(d) = int_d^1 t f(t) dt
 // (Wendland 1995, doi:10.1007/BF02123482), scaled to 1 at d = 0
 std::vector<Real> wendland(int k);
 
