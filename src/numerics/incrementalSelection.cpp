@@ -187,7 +187,8 @@ void IncrementalSelection::start
     Communicator& communicator
 )
 {
-    started_ = true;
+    origins_.clear();
+    values_.clear();
     const Index n = candidates.size();
     Vectors x(n, 3);
     for (Index i = 0; i < n; ++i)
@@ -208,6 +209,7 @@ void IncrementalSelection::start
     {
         factor_.reset(new GramFactor(kernel_));
     }
+    started_ = true;
 }
 
 

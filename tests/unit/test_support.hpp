@@ -92,8 +92,8 @@ RbfInterpolant throughAll
 );
 
 
-// Independent computations in long double. Nothing in here calls the code under
-// test.
+// Independent computations in long double: nothing in here calls the code
+// under test.
 namespace reference
 {
 
@@ -101,8 +101,9 @@ using Real = long double;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 // The coefficients of the Wendland function of smoothness 2k in R^3 by
-// Wendland's construction: phi_{3,k} = I^k (1 - d)^(k + 2), I f(d) = int_d^1 t f(t) dt
-// (Wendland 1995, doi:10.1007/BF02123482), scaled to 1 at d = 0
+// Wendland's construction: phi_{3,k} = I^k (1 - d)^(k + 2) with the operator
+// I f(d) = int_d^1 t f(t) dt (Wendland 1995, doi:10.1007/BF02123482), scaled to
+// 1 at d = 0
 std::vector<Real> wendland(int k);
 
 // phi(d)
