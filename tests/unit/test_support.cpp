@@ -41,7 +41,7 @@ public:
         {
             std::printf
             (
-                "  %-62s %8.1e (%.0e)\n",
+                "  %-58s %9.2e (%.3g)\n",
                 r.first.c_str(), r.second.deviation, r.second.bound
             );
         }
