@@ -9,6 +9,33 @@
 namespace morph
 {
 
+namespace
+{
+
+// Sine of the angle below which directions are the same
+constexpr double sameDirection = 1e-6;
+
+
+// How far what p prescribes is from what q prescribes, along the directions of
+// p that are among those of q
+double contradiction(const ControlPoint& p, const ControlPoint& q)
+{
+    const Vector3 residual = p.residual(q.C()*q.g());
+    double sum = 0;
+    for (int a = 0; a < p.k; ++a)
+    {
+        const Vector3 n = p.directions.col(a);
+        if ((n - q.C()*(q.C().transpose()*n)).norm() < sameDirection)
+        {
+            sum += residual[a]*residual[a];
+        }
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace
+
+
 ControlPoint ControlPoint::prescribed(const Vector3& x, const Vector3& s)
 {
     ControlPoint p;
@@ -38,7 +65,7 @@ ControlPoint ControlPoint::sliding
         {
             n -= p.C()*(p.C().transpose()*n);
         }
-        if (p.k == 3 || !(n.norm() > 1e-6))
+        if (p.k == 3 || !(n.norm() > sameDirection))
         {
             throw std::invalid_argument
             (
@@ -48,6 +75,14 @@ ControlPoint ControlPoint::sliding
         p.directions.col(p.k++) = n.normalized();
     }
 
+    if (p.k == 0)
+    {
+        throw std::invalid_argument("a sliding control point needs a normal");
+    }
+    if (p.k == 3)
+    {
+        return prescribed(x, s);
+    }
     p.value.head(p.k) = p.C().transpose()*s;
     return p;
 }
@@ -128,10 +163,8 @@ std::vector<Index> withoutDuplicates
             continue;
         }
 
-        // The displacement the kept point prescribes, along its directions
-        const ControlPoint& q = points[kept.back()];
-        const double difference = p.residual(q.C()*q.g()).norm();
-        if (q.k == 3 && difference > tolerance)
+        const double difference = contradiction(p, points[kept.back()]);
+        if (difference > tolerance)
         {
             throw ConflictingControlPoints(p.position, difference);
         }

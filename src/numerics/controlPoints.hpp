@@ -15,7 +15,7 @@ namespace morph
 {
 
 // Condition on the displacement s at the control point: C^T s(x) = g.
-//   k = 3  moving or fixed: s is prescribed (C = I, g = s)
+//   k = 3  moving or fixed: s is prescribed (C = I, g = s, always)
 //   k = 1  sliding on a surface of unit normal C: g = n . s
 //   k = 2  sliding along an edge; the columns of C are orthonormal and span
 //          the plane normal to the edge
@@ -38,8 +38,8 @@ struct ControlPoint
 
     // The component of s along the normals is prescribed to be that of the
     // given displacement. One normal: a surface. Two: an edge. Normals need not
-    // have unit length nor be orthogonal; throws std::invalid_argument if they
-    // are dependent.
+    // have unit length nor be orthogonal. Three: s is prescribed. Throws
+    // std::invalid_argument if there is none or they are dependent.
     static ControlPoint sliding
     (
         const Vector3& x,
@@ -82,8 +82,8 @@ struct ConflictingControlPoints
 // Of control points at exactly the same position keeps the one with most
 // conditions (fixed and moving before edge before surface; of equals the first)
 // and returns their indices in ascending order. Throws ConflictingControlPoints
-// where the conditions of one that is dropped are not met by the one that is
-// kept to within tolerance [m].
+// where one that is dropped and the one that is kept prescribe, along a
+// direction they share, displacements further apart than the tolerance [m].
 std::vector<Index> withoutDuplicates
 (
     const ControlPoints& points,

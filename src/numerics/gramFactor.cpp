@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace morph
@@ -132,10 +134,18 @@ Matrix GramFactor::kernelBlock(const Columns& a, const Columns& b) const
 }
 
 
-double GramFactor::diagonal(const Vector3& x) const
+double GramFactor::pivotScale(const Vector3& x) const
 {
     const Columns p = x.transpose();
-    return kernelBlock(p, p)(0, 0);
+    double largest = std::abs(kernel_(0));
+    if (basis_.size() > 0)
+    {
+        const Matrix k = kernelMatrix(kernel_, p, basis_.nodes());
+        largest = std::max(largest, k.cwiseAbs().maxCoeff());
+        largest = std::max(largest, nodeKernel_.cwiseAbs().maxCoeff());
+    }
+    const double sum = 1 + basis_.values(p).cwiseAbs().sum();
+    return sum*sum*largest;
 }
 
 

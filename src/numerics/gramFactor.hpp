@@ -85,8 +85,9 @@ public:
     // Solves for the weights and hands them to the interpolant
     void solve(RbfInterpolant& interpolant) const;
 
-    // kappa(x, x) of the kernel in use: scale of the pivots
-    double diagonal(const Vector3& x) const;
+    // Scale of the pivot of a point at x: a bound of the terms of K(x, x), of
+    // which round-off is a fraction also beside a node, where they cancel
+    double pivotScale(const Vector3& x) const;
 
 private:
 

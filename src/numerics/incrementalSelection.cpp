@@ -12,7 +12,7 @@ namespace morph
 namespace
 {
 
-// A pivot below this fraction of the kernel's own diagonal is round-off
+// A pivot below this fraction of its scale is round-off
 constexpr double leastPivot = 1e-12;
 
 // In units of the distance from the worst candidate to what is selected: one
@@ -187,7 +187,8 @@ void IncrementalSelection::start
     Communicator& communicator
 )
 {
-    started_ = true;
+    origins_.clear();
+    values_.clear();
     const Index n = candidates.size();
     Vectors x(n, 3);
     for (Index i = 0; i < n; ++i)
@@ -208,6 +209,7 @@ void IncrementalSelection::start
     {
         factor_.reset(new GramFactor(kernel_));
     }
+    started_ = true;
 }
 
 
@@ -237,7 +239,7 @@ void IncrementalSelection::chooseNodes
         return candidateList(candidates, far, 0, 1, 0, communicator, outside);
     };
 
-    while (nodes.rows() < 4)
+    while (nodes.rows() < std::min<Index>(4, settings_.maxPoints))
     {
         const std::vector<Listed> next = farthest(false);
         if (next.empty() || next[0].error <= 1e-6*span)
@@ -402,8 +404,13 @@ IncrementalSelection::Choice IncrementalSelection::choose
     while (Index(choice.taken.size()) < std::min(most, n))
     {
         Index p = -1;
+
+        // The first of the list is tried in any case: round-off here may differ
+        // from that in the sweep, and without progress there is no end
         double worst =
-            choice.taken.empty() ? least : std::max(least, outside);
+            !choice.taken.empty() ? std::max(least, outside)
+          : choice.singular.empty() ? -1
+          : least;
         for (Index i = 0; i < n; ++i)
         {
             const double error =
@@ -426,7 +433,7 @@ IncrementalSelection::Choice IncrementalSelection::choose
             V.leftCols(columns)*V.block(first[p], 0, k, columns).transpose();
         const Eigen::LLT<Matrix> pivot(v.middleRows(first[p], k));
         const Matrix l = pivot.matrixL();
-        const double scale = factor_->diagonal(points[p].position);
+        const double scale = factor_->pivotScale(points[p].position);
         if
         (
             pivot.info() != Eigen::Success

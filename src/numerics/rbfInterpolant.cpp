@@ -42,28 +42,41 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
 {
     Vectors s(points.size(), 3);
 
+    // Lengths in units of the support radius, from the first centre: scaled
+    // alone, positions far from the origin would lose digits.
     const double scale = 1/kernel_.supportRadius();
-    const double reach2 =
-        kernel_.supportRadius()*kernel_.supportRadius();
     const Index n = centres_.rows();
+    const Eigen::RowVector3d from =
+        n > 0 ? Eigen::RowVector3d(centres_.row(0))
+      : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+    const Columns scaled = scale*(centres_.rowwise() - from);
+
+    // With the numbers of the sum itself, and a margin for the order of its
+    // operations: what is skipped would have added zero.
+    const double reach2 = 1 + 1e-12;
 
     Columns c(n, 3), w(n, 3), x, sums;
     for (const PointCloud::Leaf& leaf : points.leaves())
     {
+        PointCloud::Leaf box = leaf;
+        box.low = scale*(leaf.low - from.transpose());
+        box.high = scale*(leaf.high - from.transpose());
+
         Index m = 0;
         for (Index j = 0; j < n; ++j)
         {
-            const Vector3 centre = centres_.row(j).transpose();
-            if (!kernel_.compact() || leaf.distance2(centre) < reach2)
+            const Vector3 centre = scaled.row(j).transpose();
+            if (!kernel_.compact() || box.distance2(centre) < reach2)
             {
-                c.row(m) = scale*centres_.row(j);
+                c.row(m) = scaled.row(j);
                 w.row(m) = weights_.row(j);
                 ++m;
             }
         }
 
         const Index size = leaf.end - leaf.begin;
-        x = scale*points.sorted().middleRows(leaf.begin, size);
+        x = points.sorted().middleRows(leaf.begin, size).rowwise() - from;
+        x *= scale;
         sums = Columns::Zero(size, 3);
 
         const double* const xs[3] =
