@@ -28,6 +28,7 @@ License
 #include "foamCompat.H"
 #include "incrementalSelection.hpp"
 #include "invalidMotion.H"
+#include "localIOdictionary.H"
 #include "movedGeometry.H"
 #include "pointFields.H"
 #include "pstreamCommunicator.H"
@@ -63,37 +64,17 @@ namespace Foam
 namespace Foam
 {
 
-// pointDisplacement of the current time, or a zero field where there is none.
-// Not registered, since the solver's own copy will be
-static tmp<pointVectorField> readPointDisplacement(const polyMesh& mesh)
+static IOobject pointDisplacementIO(const polyMesh& mesh)
 {
-    IOobject io
+    return IOobject
     (
         "pointDisplacement",
         mesh.time().timeName(),
         mesh,
-        IOobject::MUST_READ,
+        IOobject::NO_READ,
         IOobject::AUTO_WRITE,
         false
     );
-
-    tmp<pointVectorField> field;
-    if (io.typeHeaderOk<pointVectorField>(true))
-    {
-        field = tmp<pointVectorField>::New(io, pointMesh::New(mesh));
-    }
-    else
-    {
-        io.readOpt() = IOobject::NO_READ;
-        field = tmp<pointVectorField>::New
-        (
-            io,
-            pointMesh::New(mesh),
-            dimensionedVector(dimLength, Zero)
-        );
-    }
-    field.ref().readOpt() = IOobject::NO_READ;
-    return field;
 }
 
 
@@ -113,14 +94,26 @@ Foam::rbfMotionSolver::rbfMotionSolver
     const IOdictionary& dict
 )
 :
-    rbfMotionSolver
+    displacementMotionSolver
     (
         mesh,
         dict,
-        readPointDisplacement(mesh),
-        pointIOField(points0IO(mesh))
-    )
-{}
+        pointVectorField
+        (
+            pointDisplacementIO(mesh),
+            pointMesh::New(mesh),
+            dimensionedVector(dimLength, Zero)
+        ),
+        pointIOField(points0IO(mesh)),
+        typeName
+    ),
+    settings_(rbfMotionSettings::read(coeffDict())),
+    largestDisplacement_(0),
+    supportRadius_(0)
+{
+    readPointDisplacement();
+    initialise();
+}
 
 
 Foam::rbfMotionSolver::rbfMotionSolver
@@ -137,8 +130,38 @@ Foam::rbfMotionSolver::rbfMotionSolver
     supportRadius_(0)
 {
     foamCompat::registerObject(pointDisplacement_);
+    initialise();
+}
 
-    if (dict.found(typeName + "Coeffs"))
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::rbfMotionSolver::readPointDisplacement()
+{
+    foamCompat::registerObject(pointDisplacement_);
+
+    IOobject io(pointDisplacementIO(mesh()));
+    io.readOpt() = IOobject::MUST_READ;
+    if (!io.typeHeaderOk<pointVectorField>(true))
+    {
+        return;
+    }
+
+    // Into the field that is there: some conditions cannot be copied before
+    // they were evaluated, for example solidBodyMotionDisplacement
+    const localIOdictionary dict(io, pointVectorField::typeName);
+    auto& internal = pointDisplacement_.ref();
+    internal.readField(dict, "internalField");
+    pointDisplacement_.boundaryFieldRef().readField
+    (
+        internal, dict.subDict("boundaryField")
+    );
+}
+
+
+void Foam::rbfMotionSolver::initialise()
+{
+    if (found(typeName + "Coeffs"))
     {
         dictionaryChecks::onlyKeys
         (
@@ -152,7 +175,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
     }
     if (!moveAllCells())
     {
-        FatalIOErrorInFunction(dict)
+        FatalIOErrorInFunction(*this)
             << "Entries 'cellZone' and 'cellSet' have no meaning for "
             << typeName << ", which moves the whole mesh" << nl
             << "    Remove them; what should stay is a group of type fixed"
@@ -162,8 +185,6 @@ Foam::rbfMotionSolver::rbfMotionSolver
     makeGroups();
 }
 
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::rbfMotionSolver::makeGroups()
 {

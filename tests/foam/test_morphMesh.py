@@ -12,34 +12,10 @@ import shutil
 import numpy as np
 import pytest
 
+from boxCase import box, fixed, point_field
 from foamCase import FoamCase
 
 HEIGHT = 1.0
-
-MESH = """
-scale 1;
-vertices
-(
-    ({x0} 0 {z0}) ({x1} 0 {z0}) ({x1} 1 {z0}) ({x0} 1 {z0})
-    ({x0} 0 {z1}) ({x1} 0 {z1}) ({x1} 1 {z1}) ({x0} 1 {z1})
-);
-blocks ( hex (0 1 2 3 4 5 6 7) box ({cells}) simpleGrading (1 1 {grading}) );
-edges ();
-boundary
-(
-    bottom {{ type wall; faces ((0 3 2 1)); }}
-    top    {{ type wall; faces ((4 5 6 7)); }}
-    ends   {{ type patch; faces ((0 4 7 3) (1 2 6 5)); }}
-    sides  {{ type {sides}; faces ((0 1 5 4) (3 7 6 2)); }}
-);
-"""
-
-CONTROL = """
-startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT {deltaT};
-writeControl timeStep; writeInterval 1;
-writeFormat {format}; writePrecision 6; writeCompression off;
-timeFormat general; timePrecision 6; runTimeModifiable no;
-"""
 
 LAPLACIAN = """
 motionSolverLibs (fvMotionSolvers);
@@ -47,48 +23,32 @@ motionSolver displacementLaplacian;
 displacementLaplacianCoeffs { diffusivity uniform; }
 """
 
-SCHEMES = """
-divSchemes {} gradSchemes { default Gauss linear; }
-laplacianSchemes { default Gauss linear corrected; }
-interpolationSchemes { default linear; } snGradSchemes { default corrected; }
-"""
-
-SOLUTION = """
-solvers { "cell(Displacement|MotionU).*"
-{ solver PCG; preconditioner DIC; tolerance 1e-14; relTol 0; } }
-"""
-
-
-def field(name, dimensions, top, sides="patch"):
+def field(dimensions, top, sides="patch"):
     """A point field that holds the bottom and gives the top a value."""
-    side = "empty" if sides == "empty" else "zeroGradient"
-    return ("pointVectorField", f"""
-dimensions [{dimensions}]; internalField uniform (0 0 0);
-boundaryField
-{{
-    bottom {{ type fixedValue; value uniform (0 0 0); }}
-    top    {{ type fixedValue; value uniform ({top}); }}
-    ends   {{ type zeroGradient; }}
-    sides  {{ type {side}; }}
-}}""")
+    return point_field({
+        "bottom": fixed(0, 0, 0), "top": fixed(*map(float, top.split())),
+        "ends": "zeroGradient",
+        "sides": "empty" if sides == "empty" else "zeroGradient"}, dimensions)
 
 
-def make_box(path, top="0 0 0.5", region="", sides="patch", cells="4 4 4",
+def make_box(path, top="0 0 0.5", region="", sides="patch", cells=(4, 4, 4),
              z=(0, HEIGHT), x=(0, 2), grading=1, format="ascii", deltaT=1):
     """A meshed box with a displacement of its top."""
-    case = FoamCase(path)
-    case.write("system/controlDict", "dictionary",
-               CONTROL.format(format=format, deltaT=deltaT))
-    for part in {"", region}:
-        case.write(f"system/{part}/fvSchemes", "dictionary", SCHEMES)
-        case.write(f"system/{part}/fvSolution", "dictionary", SOLUTION)
-    case.write(f"system/{region}/blockMeshDict", "dictionary",
-               MESH.format(x0=x[0], x1=x[1], z0=z[0], z1=z[1], sides=sides,
-                           cells=cells, grading=grading))
+    case = box(
+        path,
+        {"bottom": ("wall", "zMin"), "top": ("wall", "zMax"),
+         "ends": ("patch", "xMin xMax"), "sides": (sides, "yMin yMax")},
+        cells=cells, low=(x[0], 0, z[0]), high=(x[1], 1, z[1]),
+        grading=(1, 1, grading),
+        control={"format": format, "deltaT": deltaT, "digits": 6})
+    if region:
+        shutil.copytree(case.path/"system", case.path/"system"/region)
+        shutil.move(case.path/"constant", case.path/region)
+        (case.path/"constant").mkdir()
+        shutil.move(case.path/region, case.path/"constant")
     case.write(f"constant/{region}/dynamicMeshDict", "dictionary", LAPLACIAN)
     case.write(f"0/{region}/pointDisplacement",
-               *field("pointDisplacement", "0 1 0 0 0 0 0", top, sides))
-    case.run("blockMesh", *(("-region", region) if region else ()))
+               *field("0 1 0 0 0 0 0", top, sides))
     return case
 
 
@@ -242,7 +202,7 @@ def test_points_keep_the_digits_that_thin_cells_need(tmp_path):
     # The lowest cells, about 4e-6 high at z = 1000, vanish with the six
     # digits of writePrecision; the mesh is to be that which was checked
     z = (1000, 1001)
-    case = make_box(tmp_path, z=z, cells="2 2 20", grading=1e5)
+    case = make_box(tmp_path, z=z, cells=(2, 2, 20), grading=1e5)
     output = case.run("morphMesh")
     assert "17 digits" in output
     same_figures(quality_file(case)["after"], check_mesh(case))
@@ -307,7 +267,7 @@ def test_a_solver_of_velocities_moves_the_mesh_by_one_time_step(tmp_path):
     case.write("constant/dynamicMeshDict", "dictionary",
                LAPLACIAN.replace("displacementL", "velocityL"))
     case.write("0/pointMotionU",
-               *field("pointMotionU", "0 1 -1 0 0 0 0", "0 0 0.1"))
+               *field("0 1 -1 0 0 0 0", "0 0 0.1"))
     before = case.points("constant/polyMesh/points")
     case.run("morphMesh")
     np.testing.assert_allclose(case.points("0/polyMesh/points"),
@@ -322,11 +282,11 @@ def test_figures_are_those_of_checkMesh(tmp_path, sides):
     # Sheared, so that non-orthogonality is not zero; empty: a 2D mesh, whose
     # aspect ratio leaves out the third direction
     case = make_box(tmp_path, top="0.2 0 0.1", sides=sides, grading=3,
-                    cells="7 1 5" if sides == "empty" else "7 3 5")
+                    cells=(7, 1, 5) if sides == "empty" else (7, 3, 5))
     case.write("0/pointDisplacement", "pointVectorField",
-               field("", "0 1 0 0 0 0 0", "0.2 0 0.1", sides)[1].replace(
-                   "ends   { type zeroGradient; }",
-                   "ends   { type fixedValue; value uniform (0 0 0); }"))
+               field("0 1 0 0 0 0 0", "0.2 0 0.1", sides)[1].replace(
+                   "ends { type zeroGradient; }",
+                   "ends { type fixedValue; value uniform (0 0 0); }"))
     unmoved = check_mesh(case)
     case.run("morphMesh")
     figures = quality_file(case)
@@ -373,7 +333,7 @@ def test_what_was_wrong_before_is_not_laid_to_the_motion(tangled):
 
     # Now every cell turns inside out: what was wrong does not count
     was = quality(output)["before"]
-    tangled.write("0/pointDisplacement", *field("", "0 1 0 0 0 0 0", "0 0 -3"))
+    tangled.write("0/pointDisplacement", *field("0 1 0 0 0 0 0", "0 0 -3"))
     output = tangled.run("morphMesh", status=1)
     figures = quality(output)["after"]
     made = re.search(r"the motion makes (\d+) .* and (\d+) cells", output)
@@ -453,7 +413,7 @@ def points0_of_another_mesh(case):
                "motionSolver velocityLaplacian; diffusivity uniform;"
                "motionSolverLibs (fvMotionSolvers);")
     case.write("0/pointMotionU",
-               *field("pointMotionU", "0 1 -1 0 0 0 0", "0 0 0.1"))
+               *field("0 1 -1 0 0 0 0", "0 0 0.1"))
     # Put where both the whole and the decomposed case look for it
     for mesh in case.path.rglob("polyMesh"):
         case.write(mesh.relative_to(case.path)/"points0", "vectorField",

@@ -1,0 +1,82 @@
+"""Cases whose mesh rbfMotionSolver moves.
+
+    case = rbf_case(tmp_path, conditions={"zMax": fixed(0, 0, 0.1), ...})
+    case = rbf_case(tmp_path, coeffs="controlPoints { ... }")
+    points = move(case)
+"""
+
+import re
+
+import numpy as np
+
+from boxCase import box, point_field
+
+CUBE = {side: "patch"
+        for side in ("xMin", "xMax", "yMin", "yMax", "zMin", "zMax")}
+
+DROP_IN = """
+dynamicFvMesh       dynamicMotionSolverFvMesh;
+motionSolverLibs    (morphMotionSolvers);
+motionSolver        rbfMotionSolver;
+"""
+
+
+def rbf_case(path, conditions=None, coeffs=None, patches=None, extra="",
+             control=None, **mesh):
+    """A box that rbfMotionSolver moves.
+
+    conditions: of 0/pointDisplacement; without, there is no such file.
+    coeffs: rbfMotionSolverCoeffs; without, the drop-in dictionary.
+    """
+    case = box(path, patches or CUBE, control, **mesh)
+    dictionary = DROP_IN + extra
+    if coeffs is not None:
+        dictionary += f"rbfMotionSolverCoeffs\n{{\n{coeffs}\n}}"
+    case.write("constant/dynamicMeshDict", "dictionary", dictionary)
+    if conditions is not None:
+        case.write("0/pointDisplacement", *point_field(conditions))
+    return case
+
+
+def groups(**bodies):
+    """controlPoints with these groups."""
+    return "controlPoints\n{\n" + "\n".join(
+        f"{name} {{ {body} }}" for name, body in bodies.items()) + "\n}"
+
+
+def reference(case):
+    """The points of the mesh before it moves."""
+    return case.points("constant/polyMesh/points")
+
+
+def move(case, time="1", **run):
+    """The points after moveDynamicMesh, which ends at this time."""
+    case.run("moveDynamicMesh", **run)
+    return points_at(case, time)
+
+
+def points_at(case, time):
+    if list(case.path.glob("processor[0-9]*")):
+        return case.decomposed_points(f"{time}/polyMesh/points")
+    return case.points(f"{time}/polyMesh/points")
+
+
+def side(points, name):
+    """Which points of a box at (0 0 0) (1 1 1) are on a side."""
+    return points[:, "xyz".index(name[0])] == (1 if "Max" in name else 0)
+
+
+def ulps(points):
+    """An absolute tolerance of a few units in the last place of points."""
+    return 4*np.finfo(float).eps*np.abs(points).max()
+
+
+SELECTED = (r"^rbfMotionSolver: selected (\d+) of (\d+) control points, "
+            r"largest error (\S+) \(tolerance (\S+)\), selection (\S+) s$")
+
+
+def selections(output):
+    """What the log says of each selection: selected, of, error, tolerance."""
+    return [(int(n), int(of), float(error), float(tolerance))
+            for n, of, error, tolerance, _
+            in re.findall(SELECTED, output, re.MULTILINE)]
