@@ -9,7 +9,7 @@ from picture import picture  # noqa: E402
 
 whole = (-24, 24, -13, 13)
 nose = (-20, -10, -3, 3.5)
-tail = (12, 22, -5.5, 1)
+tail = (12, 22, -1, 5.5)
 pressure = dict(field="p", range=(-500, 500), lines=False)
 
 for name, case in (("before", here), ("after", here / "work/pitched10")):
