@@ -18,6 +18,7 @@ void appendLower(GrowingMatrix& a, const Matrix& b, const Matrix& d)
     const Index n = a.rows();
     const Index m = d.rows();
     a.grow(n + m, n + m);
+    a.view().topRightCorner(n, m).setZero();
     a.view().bottomLeftCorner(m, n) = b;
     a.view().bottomRightCorner(m, m) = d;
 }

@@ -95,6 +95,9 @@ public:
     // The outcome of the last selection
     virtual const RbfInterpolant& interpolant() const = 0;
 
+    // |C^T s - g| of this rank's candidates after the last selection [m]
+    virtual const std::vector<double>& errors() const = 0;
+
     // Indices of this rank's candidates that are selected
     virtual std::vector<Index> selected() const = 0;
 };

@@ -41,6 +41,11 @@ public:
 
     const RbfInterpolant& interpolant() const override { return interpolant_; }
 
+    const std::vector<double>& errors() const override
+    {
+        return errors_.norms;
+    }
+
     std::vector<Index> selected() const override;
 
 private:

@@ -1,0 +1,116 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "dictionaryChecks.H"
+#include "foamCompat.H"
+#include "FlatOutput.H"
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::dictionaryChecks::onlyKeys
+(
+    const dictionary& dict,
+    const wordList& allowed
+)
+{
+    for (const entry& e : dict)
+    {
+        if (!allowed.found(e.keyword()))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Unknown entry '" << e.keyword() << "'" << nl
+                << "    Valid entries: " << flatOutput(allowed) << nl
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+Foam::scalar Foam::dictionaryChecks::getPositive
+(
+    const dictionary& dict,
+    const word& key
+)
+{
+    const scalar value = dict.get<scalar>(key);
+    if (!(value > 0) || value > VGREAT)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value
+            << " but has to be a positive number" << nl
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+void Foam::dictionaryChecks::stopIf
+(
+    const dictionary& dict,
+    const string& message
+)
+{
+    List<string> messages(Pstream::nProcs());
+    messages[Pstream::myProcNo()] = message;
+    foamCompat::allGatherList(messages);
+
+    for (const string& first : messages)
+    {
+        if (!first.empty())
+        {
+            FatalIOErrorInFunction(dict)
+                << first.c_str() << nl << exit(FatalIOError);
+        }
+    }
+}
+
+
+Foam::labelList Foam::dictionaryChecks::select
+(
+    const dictionary& dict,
+    const word& key,
+    const wordList& names
+)
+{
+    labelHashSet selected;
+    for (const wordRe& pattern : dict.get<wordRes>(key))
+    {
+        bool found = false;
+        forAll(names, i)
+        {
+            if (pattern.match(names[i]))
+            {
+                found = true;
+                selected.insert(i);
+            }
+        }
+        if (!found)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << key << "': nothing is called '" << pattern
+                << "'" << nl
+                << "    There are: " << flatOutput(names) << nl
+                << exit(FatalIOError);
+        }
+    }
+    return selected.sortedToc();
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,157 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "fileDisplacement.H"
+#include "addToRunTimeSelectionTable.H"
+#include "dictionaryChecks.H"
+#include "StringStream.H"
+#include "Time.H"
+
+#include <fstream>
+#include <sstream>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(fileDisplacement, 0);
+    addToRunTimeSelectionTable
+    (
+        prescribedDisplacement,
+        fileDisplacement,
+        dictionary
+    );
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::fileDisplacement::fileDisplacement
+(
+    const dictionary& dict,
+    const polyMesh& mesh,
+    const labelList& patches,
+    const label nListed
+)
+:
+    tabulatedDisplacement(dict, mesh, {"file", "tolerance"}),
+    table_(nullptr),
+    values_(),
+    tolerance_(0)
+{
+    fileName file(dict.get<fileName>("file"));
+    file.expand();
+    read(file.isAbsolute() ? file : mesh.time().globalPath()/file);
+
+    tolerance_ =
+        dict.found("tolerance")
+      ? dictionaryChecks::getPositive(dict, "tolerance")
+      : 1e-6*table_->span() + ROOTVSMALL;
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::fileDisplacement::read(const fileName& file)
+{
+    DynamicList<vector> positions, values;
+    string message;
+
+    if (Pstream::master())
+    {
+        std::ifstream stream(file);
+        if (!stream)
+        {
+            message = "Entry 'file': cannot read " + file;
+        }
+        std::string line;
+        for (label number = 1; std::getline(stream, line); ++number)
+        {
+            const auto first = line.find_first_not_of(" \t\r");
+            if (first == std::string::npos || line[first] == '#')
+            {
+                continue;
+            }
+            vector x, d;
+            std::string rest;
+            std::istringstream is(line);
+            is  >> x.x() >> x.y() >> x.z() >> d.x() >> d.y() >> d.z();
+            if (!is || (is >> rest))
+            {
+                message =
+                    file + ", line " + std::to_string(number)
+                  + ": a line has six numbers, x y z dx dy dz";
+                break;
+            }
+            positions.append(x);
+            values.append(d);
+        }
+        if (message.empty() && positions.empty())
+        {
+            message = file + " has no lines x y z dx dy dz";
+        }
+    }
+
+    dictionaryChecks::stopIf(dict(), message);
+    Pstream::scatter(positions);
+    Pstream::scatter(values);
+    table_.reset(new positionTable(pointField(positions)));
+    values_ = values;
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+Foam::tmp<Foam::vectorField> Foam::fileDisplacement::unscaled
+(
+    const points& p
+) const
+{
+    auto d = tmp<vectorField>::New(p.positions.size(), Zero);
+    label nMissing = 0;
+    OStringStream example;
+    forAll(p.positions, i)
+    {
+        const label place = table_->find(p.positions[i], tolerance_);
+        if (place >= 0)
+        {
+            d.ref()[i] = values_[place];
+        }
+        else if (nMissing++ == 0)
+        {
+            example << p.positions[i];
+        }
+    }
+
+    OStringStream message;
+    const label nAll = returnReduce(nMissing, sumOp<label>());
+    if (nMissing > 0)
+    {
+        message
+            << "Entry 'file': " << nAll << " control points, for example "
+            << example.str() << "," << nl << "    have no line in "
+            << dict().get<fileName>("file") << " within " << tolerance_
+            << " m of them" << nl
+            << "    Add them, or raise 'tolerance'";
+    }
+    dictionaryChecks::stopIf(dict(), message.str());
+    return d;
+}
+
+
+// ************************************************************************* //

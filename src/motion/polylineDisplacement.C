@@ -1,0 +1,104 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "polylineDisplacement.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(polylineDisplacement, 0);
+    addToRunTimeSelectionTable
+    (
+        prescribedDisplacement,
+        polylineDisplacement,
+        dictionary
+    );
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::polylineDisplacement::polylineDisplacement
+(
+    const dictionary& dict,
+    const polyMesh& mesh,
+    const labelList& patches,
+    const label nListed
+)
+:
+    tabulatedDisplacement(dict, mesh, {"vertices", "values"}),
+    vertices_(dict.get<pointField>("vertices")),
+    values_(dict.get<vectorField>("values"))
+{
+    if (vertices_.size() < 2 || values_.size() != vertices_.size())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'vertices' has " << vertices_.size()
+            << " positions and 'values' has " << values_.size()
+            << " displacements" << nl
+            << "    Give at least two vertices and one value for each" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::vector Foam::polylineDisplacement::at(const point& x) const
+{
+    vector value(Zero);
+    scalar nearest = GREAT;
+    for (label i = 0; i + 1 < vertices_.size(); ++i)
+    {
+        const vector edge = vertices_[i + 1] - vertices_[i];
+        const scalar t = min
+        (
+            max((x - vertices_[i]) & edge, scalar(0))
+           /max(magSqr(edge), VSMALL),
+            scalar(1)
+        );
+        const scalar distance = mag(x - vertices_[i] - t*edge);
+        if (distance < nearest)
+        {
+            nearest = distance;
+            value = (1 - t)*values_[i] + t*values_[i + 1];
+        }
+    }
+    return value;
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+Foam::tmp<Foam::vectorField> Foam::polylineDisplacement::unscaled
+(
+    const points& p
+) const
+{
+    auto d = tmp<vectorField>::New(p.positions.size());
+    forAll(p.positions, i)
+    {
+        d.ref()[i] = at(p.positions[i]);
+    }
+    return d;
+}
+
+
+// ************************************************************************* //

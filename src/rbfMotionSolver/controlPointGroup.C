@@ -1,0 +1,346 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "controlPointGroup.H"
+#include "dictionaryChecks.H"
+#include "emptyPolyPatch.H"
+#include "processorPolyPatch.H"
+#include "wedgePolyPatch.H"
+#include "fixedValuePointPatchFields.H"
+#include "pointFields.H"
+#include "FlatOutput.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::controlPointGroup::part>
+Foam::controlPointGroup::partNames
+({
+    { part::moving, "moving" },
+    { part::fixed, "fixed" },
+    { part::sliding, "sliding" }
+});
+
+
+const Foam::Enum<Foam::controlPointGroup::surfaceType>
+Foam::controlPointGroup::surfaceNames
+({
+    { surfaceType::planar, "planar" },
+    { surfaceType::curved, "curved" }
+});
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::controlPointGroup::controlPointGroup
+(
+    const word& name,
+    const dictionary& dict,
+    const polyMesh& mesh
+)
+:
+    dict_(dict),
+    mesh_(mesh),
+    name_(name),
+    part_(partNames.get("type", dict)),
+    surface_(surfaceType::found),
+    displacement_(nullptr)
+{
+    dictionaryChecks::onlyKeys
+    (
+        dict,
+        {
+            "type", "patches", "faceZones", "pointZones", "points",
+            "displacement", "surface"
+        }
+    );
+
+    if (dict.found("patches"))
+    {
+        selectPatches();
+    }
+    if (dict.found("faceZones"))
+    {
+        faceZones_ =
+            dictionaryChecks::select(dict, "faceZones", mesh.faceZones().names());
+    }
+    if (dict.found("pointZones"))
+    {
+        pointZones_ = dictionaryChecks::select
+        (
+            dict, "pointZones", mesh.pointZones().names()
+        );
+    }
+    if (dict.found("points"))
+    {
+        listed_ = dict.get<pointField>("points");
+    }
+    if
+    (
+        patches_.empty() && faceZones_.empty() && pointZones_.empty()
+     && listed_.empty()
+    )
+    {
+        FatalIOErrorInFunction(dict)
+            << "Group '" << name << "' selects no control points" << nl
+            << "    Give it 'patches', 'faceZones', 'pointZones' or 'points'"
+            << nl << exit(FatalIOError);
+    }
+
+    checkSurface();
+    checkDisplacement();
+}
+
+
+Foam::controlPointGroup::controlPointGroup
+(
+    const polyMesh& mesh,
+    const label patchi,
+    const part p
+)
+:
+    dict_(),
+    mesh_(mesh),
+    name_(mesh.boundaryMesh()[patchi].name()),
+    part_(p),
+    surface_(surfaceType::found),
+    patches_(1, patchi),
+    displacement_(nullptr)
+{
+    if (p == part::moving)
+    {
+        dictionary field;
+        field.add("type", "pointDisplacement");
+        displacement_ =
+            prescribedDisplacement::New(field, mesh, patches_, 0);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::controlPointGroup::selectPatches()
+{
+    const polyBoundaryMesh& boundary = mesh_.boundaryMesh();
+    labelHashSet selected;
+    for (const wordRe& pattern : dict_.get<wordRes>("patches"))
+    {
+        const labelHashSet these
+        (
+            boundary.patchSet(wordRes(1, pattern), false, true)
+        );
+
+        // On some ranks a processor patch may match what others do not have
+        bool found = false;
+        for (const label patchi : these)
+        {
+            found = found || patchi < boundary.nNonProcessor();
+        }
+        if (!found)
+        {
+            wordList names(boundary.names());
+            names.setSize(boundary.nNonProcessor());
+            FatalIOErrorInFunction(dict_)
+                << "Entry 'patches': no patch or patch group is called '"
+                << pattern << "'" << nl
+                << "    Patches: " << flatOutput(names) << nl
+                << "    Patch groups: "
+                << flatOutput(boundary.groupPatchIDs().sortedToc()) << nl
+                << exit(FatalIOError);
+        }
+        selected |= these;
+    }
+
+    for (const label patchi : selected.sortedToc())
+    {
+        const polyPatch& patch = boundary[patchi];
+        const bool constrained =
+            patch.coupled()
+         || isA<emptyPolyPatch>(patch)
+         || isA<wedgePolyPatch>(patch);
+
+        // A pattern such as ".*" means the patches that can be controlled
+        if (!constrained)
+        {
+            patches_.append(patchi);
+        }
+    }
+}
+
+
+void Foam::controlPointGroup::checkSurface()
+{
+    if (dict_.found("surface"))
+    {
+        surface_ = surfaceNames.get("surface", dict_);
+        if (!slides())
+        {
+            FatalIOErrorInFunction(dict_)
+                << "Entry 'surface' is for groups of type sliding; this one is "
+                << partNames[part_] << nl << exit(FatalIOError);
+        }
+    }
+    if (slides() && (pointZones_.size() || listed_.size()))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "A sliding group needs a surface to slide on, but 'points' and"
+            << " 'pointZones' have none" << nl
+            << "    Select 'patches' or 'faceZones'" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::controlPointGroup::checkDisplacement()
+{
+    const dictionary* given = dict_.findDict("displacement");
+    if (given && part_ == part::fixed)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "A fixed group has no 'displacement'" << nl
+            << "    Remove the entry, or make the group moving or sliding"
+            << nl << exit(FatalIOError);
+    }
+    if (!given && dict_.found("displacement"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry 'displacement' has to be a dictionary:"
+            << " displacement { type ...; }" << nl << exit(FatalIOError);
+    }
+
+    if (given)
+    {
+        displacement_ = prescribedDisplacement::New
+        (
+            *given, mesh_, patches_, listed_.size()
+        );
+    }
+    else if (part_ == part::moving)
+    {
+        dictionary field(dict_, dictionary());
+        field.add("type", "pointDisplacement");
+        displacement_ = prescribedDisplacement::New
+        (
+            field, mesh_, patches_, listed_.size()
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::controlPointGroup::moves() const
+{
+    if (!displacement_.valid())
+    {
+        return false;
+    }
+    if (!fromField())
+    {
+        return true;
+    }
+
+    // A plain fixedValue of zero is zero for ever
+    const auto& field =
+        mesh_.lookupObject<pointVectorField>("pointDisplacement");
+    bool some = false;
+    for (const label patchi : patches_)
+    {
+        const auto& condition = refCast<const valuePointPatchField<vector>>
+        (
+            field.boundaryField()[patchi]
+        );
+        some =
+            some
+         || condition.type() != fixedValuePointPatchField<vector>::typeName
+         || gMax(mag(condition)) > 0;
+    }
+    return some;
+}
+
+
+bool Foam::controlPointGroup::fromField() const
+{
+    return displacement_.valid() && displacement_->fromField();
+}
+
+
+Foam::labelHashSet Foam::controlPointGroup::meshPoints() const
+{
+    labelHashSet selected;
+    for (const label patchi : patches_)
+    {
+        selected.insert(mesh_.boundaryMesh()[patchi].meshPoints());
+    }
+    for (const label zonei : faceZones_)
+    {
+        for (const label facei : mesh_.faceZones()[zonei])
+        {
+            selected.insert(mesh_.faces()[facei]);
+        }
+    }
+    for (const label zonei : pointZones_)
+    {
+        selected.insert(mesh_.pointZones()[zonei]);
+    }
+    return selected;
+}
+
+
+Foam::labelList Foam::controlPointGroup::faces() const
+{
+    DynamicList<label> selected;
+    for (const label patchi : patches_)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        selected.append(identity(patch.size(), patch.start()));
+    }
+    for (const label zonei : faceZones_)
+    {
+        for (const label facei : mesh_.faceZones()[zonei])
+        {
+            // Two ranks have the faces between them: one of them counts
+            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+            const auto* between =
+                patchi < 0
+              ? nullptr
+              : isA<processorPolyPatch>(mesh_.boundaryMesh()[patchi]);
+            if (!between || between->owner())
+            {
+                selected.append(facei);
+            }
+        }
+    }
+    return labelList(selected);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
+(
+    const prescribedDisplacement::points& p
+) const
+{
+    if (displacement_.valid())
+    {
+        return displacement_->displacement(p);
+    }
+    return tmp<vectorField>::New(p.positions.size(), Zero);
+}
+
+
+// ************************************************************************* //

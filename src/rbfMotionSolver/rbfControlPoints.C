@@ -1,0 +1,519 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "rbfControlPoints.H"
+#include "dictionaryChecks.H"
+#include "eigenFields.H"
+#include "globalMeshData.H"
+#include "positionTable.H"
+#include "surfaceNormals.H"
+#include "syncTools.H"
+#include "StringStream.H"
+#include "unitConversion.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// A patch is planar where no face is tilted by more than this [rad]: meshes
+// written with six digits have not quite flat planes
+static const scalar planarAngle = 1e-3;
+
+// Listed points this close to a mesh point, in units of the mesh's size, are it
+static const scalar samePlace = 1e-8;
+
+// More than any displacement, for points whose displacement is not known yet;
+// its square is still a number
+static const vector unknown = vector::uniform(GREAT);
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::rbfControlPoints::rbfControlPoints
+(
+    const polyMesh& mesh,
+    const dictionary& dict,
+    const pointField& points0,
+    const PtrList<controlPointGroup>& groups,
+    const planarReduction& plane,
+    const scalar featureAngle
+)
+:
+    mesh_(mesh),
+    dict_(dict),
+    points0_(points0),
+    groups_(groups),
+    plane_(plane),
+    featureAngle_(featureAngle)
+{
+    assign();
+    own();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::rbfControlPoints::assign()
+{
+    const label none = labelMax;
+    labelList group(mesh_.nPoints(), none);
+    labelList listed(mesh_.nPoints(), -1);
+
+    const scalar axisTolerance =
+        samePlace*boundBox(points0_, true).mag();
+    forAll(points0_, pointi)
+    {
+        if (plane_.onAxis(points0_[pointi], axisTolerance))
+        {
+            group[pointi] = groups_.size();
+        }
+    }
+    forAllReverse(groups_, groupi)
+    {
+        for (const label pointi : groups_[groupi].meshPoints())
+        {
+            group[pointi] = groupi;
+        }
+    }
+    assignListed(group, listed);
+    syncTools::syncPointList(mesh_, group, minEqOp<label>(), none);
+
+    DynamicList<label> labels;
+    forAll(group, pointi)
+    {
+        if (group[pointi] != none && plane_.representative()[pointi] == pointi)
+        {
+            labels.append(pointi);
+        }
+    }
+    controlled_.transfer(labels);
+    group_ = UIndirectList<label>(group, controlled_);
+    listed_ = UIndirectList<label>(listed, controlled_);
+}
+
+
+void Foam::rbfControlPoints::assignListed(labelList& group, labelList& listed)
+{
+    DynamicList<point> positions;
+    DynamicList<label> groupOf, placeOf;
+    forAll(groups_, groupi)
+    {
+        const pointField& x = groups_[groupi].listed();
+        forAll(x, i)
+        {
+            positions.append(plane_.position(x[i]));
+            groupOf.append(groupi);
+            placeOf.append(i);
+        }
+    }
+    if (positions.empty())
+    {
+        return;
+    }
+
+    const positionTable table((pointField(positions)));
+    const scalar tolerance = samePlace*boundBox(points0_, true).mag();
+    boolList onMesh(positions.size(), false);
+    forAll(points0_, pointi)
+    {
+        const label i =
+            table.find(plane_.position(points0_[pointi]), tolerance);
+        if (i >= 0)
+        {
+            onMesh[i] = true;
+            if (groupOf[i] <= group[pointi])
+            {
+                group[pointi] = groupOf[i];
+                listed[pointi] = placeOf[i];
+            }
+        }
+    }
+
+    Pstream::listCombineGather(onMesh, orEqOp<bool>());
+    if (Pstream::master())
+    {
+        forAll(onMesh, i)
+        {
+            if (!onMesh[i])
+            {
+                freeGroup_.append(groupOf[i]);
+                freeListed_.append(placeOf[i]);
+            }
+        }
+    }
+}
+
+
+void Foam::rbfControlPoints::own()
+{
+    // The master of points that ranks share tells the others that they are
+    // slaves. Points coupled by a cyclic are different points
+    const globalMeshData& global = mesh_.globalData();
+    const labelList& coupled = global.coupledPatch().meshPoints();
+    const labelListList& slaves = global.globalPointSlaves();
+    const mapDistribute& map = global.globalPointSlavesMap();
+
+    labelList isSlave(map.constructSize(), Zero);
+    for (const labelList& these : slaves)
+    {
+        for (const label slot : these)
+        {
+            isSlave[slot] = 1;
+        }
+    }
+    map.reverseDistribute(coupled.size(), isSlave, false);
+
+    bitSet slave(mesh_.nPoints());
+    forAll(coupled, i)
+    {
+        slave.set(coupled[i], isSlave[i] == 1);
+    }
+    owned_.setSize(controlled_.size());
+    forAll(controlled_, i)
+    {
+        owned_[i] = !slave.test(controlled_[i]);
+    }
+}
+
+
+Foam::vectorField Foam::rbfControlPoints::displacements() const
+{
+    vectorField d(controlled_.size(), unknown);
+    forAll(groups_, groupi)
+    {
+        const labelHashSet members(groups_[groupi].meshPoints());
+        DynamicList<label> mine;
+        forAll(controlled_, i)
+        {
+            const bool has = listed_[i] >= 0 || members.found(controlled_[i]);
+            if (group_[i] == groupi && has)
+            {
+                mine.append(i);
+            }
+        }
+        const labelList meshPoints(controlled_, mine);
+        const labelList listed(listed_, mine);
+        const pointField positions(points0_, meshPoints);
+        const tmp<vectorField> tvalues
+        (
+            groups_[groupi].displacement({positions, meshPoints, listed})
+        );
+        forAll(mine, i)
+        {
+            d[mine[i]] = tvalues()[i];
+        }
+    }
+    forAll(group_, i)
+    {
+        if (group_[i] == groups_.size())
+        {
+            d[i] = Zero;
+        }
+    }
+
+    syncTools::syncPointList
+    (
+        mesh_, controlled_, d, minMagSqrEqOp<vector>(), unknown
+    );
+    forAll(d, i)
+    {
+        d[i] = plane_.reduce(points0_[controlled_[i]], d[i]);
+    }
+    return d;
+}
+
+
+Foam::vectorField Foam::rbfControlPoints::freeDisplacements() const
+{
+    vectorField d(freeGroup_.size());
+    forAll(groups_, groupi)
+    {
+        DynamicList<label> mine, listed;
+        DynamicList<point> positions;
+        forAll(freeGroup_, i)
+        {
+            if (freeGroup_[i] == groupi)
+            {
+                mine.append(i);
+                listed.append(freeListed_[i]);
+                positions.append(groups_[groupi].listed()[freeListed_[i]]);
+            }
+        }
+        if (groups_[groupi].listed().empty())
+        {
+            continue;
+        }
+        const pointField x(positions);
+        const labelList meshPoints(mine.size(), -1);
+        const labelList places(listed);
+        const tmp<vectorField> tvalues
+        (
+            groups_[groupi].displacement({x, meshPoints, places})
+        );
+        forAll(mine, i)
+        {
+            d[mine[i]] = plane_.reduce(x[i], tvalues()[i]);
+        }
+    }
+    return d;
+}
+
+
+Foam::vectorField Foam::rbfControlPoints::targetAreas
+(
+    const controlPointGroup& group,
+    const labelList& faces
+) const
+{
+    pointField target(points0_);
+    if (group.moves())
+    {
+        const labelList members(group.meshPoints().sortedToc());
+        const pointField positions(points0_, members);
+        const labelList listed(members.size(), -1);
+        const tmp<vectorField> td
+        (
+            group.displacement({positions, members, listed})
+        );
+        forAll(members, i)
+        {
+            target[members[i]] += td()[i];
+        }
+    }
+
+    vectorField areas(faces.size());
+    forAll(faces, i)
+    {
+        const face& f = mesh_.faces()[faces[i]];
+        areas[i] = plane_.reduce(f.centre(points0_), f.areaNormal(target));
+    }
+    return areas;
+}
+
+
+bool Foam::rbfControlPoints::updateNormals()
+{
+    Map<label> place(2*controlled_.size());
+    forAll(controlled_, i)
+    {
+        place.insert(controlled_[i], i);
+    }
+
+    List<List<vector>> around(controlled_.size());
+    for (const controlPointGroup& group : groups_)
+    {
+        if (!group.slides())
+        {
+            continue;
+        }
+        const labelList faces(group.faces());
+        const vectorField areas(targetAreas(group, faces));
+        const surfaceNormals::plane plane = surfaceNormals::planeOf(areas);
+        const bool forced =
+            group.surface() == controlPointGroup::surfaceType::planar;
+        const bool planar =
+            group.surface() != controlPointGroup::surfaceType::curved
+         && plane.deviation < planarAngle;
+
+        if (forced && !planar)
+        {
+            FatalIOErrorInFunction(group.dict())
+                << "Group '" << group.name() << "' has 'surface planar' but"
+                << " its faces deviate by up to " << radToDeg(plane.deviation)
+                << " degrees from a plane" << nl
+                << "    Use 'surface curved', or one group for each plane"
+                << nl << exit(FatalIOError);
+        }
+
+        forAll(faces, i)
+        {
+            const vector n =
+                planar ? plane.normal : areas[i]/max(mag(areas[i]), VSMALL);
+            for (const label pointi : mesh_.faces()[faces[i]])
+            {
+                const auto found = place.cfind(pointi);
+                if (found.found())
+                {
+                    around[found.val()].append(n);
+                }
+            }
+        }
+    }
+
+    syncTools::syncPointList
+    (
+        mesh_,
+        controlled_,
+        around,
+        ListOps::appendEqOp<vector>(),
+        List<vector>(),
+        mapDistribute::transform()
+    );
+
+    forAll(around, i)
+    {
+        if (group_[i] == groups_.size())
+        {
+            around[i] = List<vector>(1, plane_.radial());
+        }
+        around[i] = surfaceNormals::distinct(around[i], featureAngle_);
+    }
+
+    const bool changed = around != normals_;
+    normals_.transfer(around);
+    return returnReduce(changed, orOp<bool>());
+}
+
+
+morph::ControlPoint Foam::rbfControlPoints::condition
+(
+    const point& x,
+    const bool slides,
+    const List<vector>& normals,
+    const vector& d
+) const
+{
+    const morph::Vector3 position = toEigen(plane_.position(x));
+
+    // In a plane two directions are all there are
+    const label dimensions = plane_.active() ? 2 : 3;
+    if (!slides || normals.size() >= dimensions)
+    {
+        return morph::ControlPoint::prescribed(position, toEigen(d));
+    }
+    std::vector<morph::Vector3> n;
+    for (const vector& normal : normals)
+    {
+        n.push_back(toEigen(normal));
+    }
+    return morph::ControlPoint::sliding(position, n, toEigen(d));
+}
+
+
+void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
+{
+    morph::ControlPoints all;
+    DynamicList<label> labels;
+    forAll(controlled_, i)
+    {
+        if (owned_[i])
+        {
+            all.push_back(conditions_[i]);
+            labels.append(controlled_[i]);
+        }
+    }
+    forAll(freeGroup_, i)
+    {
+        const point& x = groups_[freeGroup_[i]].listed()[freeListed_[i]];
+        all.push_back(condition(x, false, List<vector>(), freeValues[i]));
+        labels.append(-1);
+    }
+
+    OStringStream message;
+    double largest = 0;
+    for (const morph::ControlPoint& p : all)
+    {
+        if (!p.value.allFinite() || p.value.norm() > 0.1*GREAT)
+        {
+            message
+                << "The prescribed displacement at " << toFoam(p.position)
+                << " is no finite number: " << toFoam(p.value);
+            break;
+        }
+        largest = std::max(largest, p.value.norm());
+    }
+
+    std::vector<morph::Index> kept;
+    if (message.str().empty())
+    {
+        try
+        {
+            kept = morph::withoutDuplicates(all, 1e-8*largest);
+        }
+        catch (const morph::ConflictingControlPoints& conflict)
+        {
+            message
+                << "Contradicting control points: " << conflict.what() << nl
+                << "    Give coincident points one displacement, or remove"
+                << " all but one of them";
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
+
+    candidates_.clear();
+    candidatePoints_.setSize(kept.size());
+    forAll(candidatePoints_, i)
+    {
+        candidates_.push_back(all[kept[i]]);
+        candidatePoints_[i] = labels[kept[i]];
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::rbfControlPoints::update()
+{
+    bool surfacesMove = false;
+    for (const controlPointGroup& group : groups_)
+    {
+        surfacesMove = surfacesMove || (group.slides() && group.moves());
+    }
+    const bool first = conditions_.empty() && candidates_.empty();
+    const bool changed =
+        (returnReduce(first, andOp<bool>()) || surfacesMove)
+     && updateNormals();
+
+    const vectorField d(displacements());
+    conditions_.setSize(controlled_.size());
+    forAll(controlled_, i)
+    {
+        const bool slides =
+            group_[i] == groups_.size() || groups_[group_[i]].slides();
+        conditions_[i] =
+            condition(points0_[controlled_[i]], slides, normals_[i], d[i]);
+    }
+    collectCandidates(freeDisplacements());
+    return changed;
+}
+
+
+void Foam::rbfControlPoints::impose(vectorField& displacement) const
+{
+    forAll(controlled_, i)
+    {
+        vector& d = displacement[controlled_[i]];
+        const morph::ControlPoint& p = conditions_[i];
+        if (p.slides())
+        {
+            const morph::Vector3 s = toEigen(d);
+            d += toFoam(p.C()*p.residual(s).head(p.k));
+        }
+        else
+        {
+            d = toFoam(p.value);
+        }
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,230 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "rbfMotionSettings.H"
+#include "dictionaryChecks.H"
+#include "DynamicList.H"
+#include "FlatOutput.H"
+#include "unitConversion.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::rbfMotionSettings::invalidMesh>
+Foam::rbfMotionSettings::invalidMeshNames
+({
+    { invalidMesh::error, "error" },
+    { invalidMesh::ignore, "ignore" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const Enum<morph::Polynomial> polynomialNames
+({
+    { morph::Polynomial::none, "none" },
+    { morph::Polynomial::linear, "linear" }
+});
+
+
+static morph::KernelType readKernel(const dictionary& dict)
+{
+    const word name(dict.getOrDefault<word>("kernel", "wendlandC2"));
+    DynamicList<word> names;
+    for (const auto& known : morph::kernelNames())
+    {
+        if (known.second == name)
+        {
+            return known.first;
+        }
+        names.append(known.second);
+    }
+
+    FatalIOErrorInFunction(dict)
+        << "Entry 'kernel': there is no kernel '" << name << "'" << nl
+        << "    Valid kernels: " << flatOutput(names) << nl
+        << exit(FatalIOError);
+    return morph::KernelType::wendlandC2;
+}
+
+
+static morph::Polynomial readPolynomial
+(
+    const dictionary& dict,
+    const morph::Kernel& kernel
+)
+{
+    const morph::Polynomial p = polynomialNames.getOrDefault
+    (
+        "polynomial",
+        dict,
+        kernel.order() > 0 ? morph::Polynomial::linear : morph::Polynomial::none
+    );
+    if (kernel.order() > 0 && p == morph::Polynomial::none)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'polynomial' is none, but kernel "
+            << dict.get<word>("kernel") << " is only conditionally definite"
+            << nl << "    Use 'polynomial linear' or another kernel" << nl
+            << exit(FatalIOError);
+    }
+    return p;
+}
+
+
+static label readCount(const dictionary& dict, const word& key)
+{
+    const label n = dict.get<label>(key);
+    if (n < 1)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << n
+            << " but has to be a positive number" << nl << exit(FatalIOError);
+    }
+    return n;
+}
+
+
+static void readGreedy
+(
+    const dictionary& dict,
+    morph::SelectionSettings& selection
+)
+{
+    dictionaryChecks::onlyKeys
+    (
+        dict, {"tolerance", "maxPoints", "algorithm", "pointsPerSweep"}
+    );
+
+    const word algorithm(dict.getOrDefault<word>("algorithm", "incremental"));
+    if (algorithm != "incremental")
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'algorithm': there is no algorithm '" << algorithm << "'"
+            << nl << "    Valid algorithms: (incremental)" << nl
+            << exit(FatalIOError);
+    }
+
+    if (dict.found("tolerance"))
+    {
+        selection.tolerance = dictionaryChecks::getPositive(dict, "tolerance");
+    }
+    if (dict.found("maxPoints"))
+    {
+        selection.maxPoints = readCount(dict, "maxPoints");
+    }
+    if (dict.found("pointsPerSweep"))
+    {
+        const token given(dict.lookup("pointsPerSweep"));
+        if (!given.isWord() || given.wordToken() != "auto")
+        {
+            selection.pointsPerSweep = readCount(dict, "pointsPerSweep");
+        }
+    }
+}
+
+
+static morph::SelectionSettings readSelection(const dictionary& dict)
+{
+    morph::SelectionSettings selection;
+
+    const dictionary* greedy = dict.findDict("greedy");
+    if (dict.found("greedy") && !greedy)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'greedy' has to be a dictionary: greedy { tolerance"
+            << " 1e-5; }" << nl << exit(FatalIOError);
+    }
+    if (greedy)
+    {
+        readGreedy(*greedy, selection);
+    }
+
+    if (dict.found("selection"))
+    {
+        const word which(dict.get<word>("selection"));
+        if (which != "all" || greedy)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'selection' is '" << which << "'"
+                << (greedy ? " beside a 'greedy' dictionary" : "") << nl
+                << "    Use 'selection all' to take every control point, or"
+                << " a 'greedy' dictionary to select" << nl
+                << exit(FatalIOError);
+        }
+        selection.all = true;
+    }
+    return selection;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * Static Functions  * * * * * * * * * * * * * * //
+
+Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
+{
+    rbfMotionSettings settings;
+
+    settings.kernel = readKernel(dict);
+    settings.polynomial =
+        readPolynomial(dict, morph::Kernel(settings.kernel, 1));
+
+    if (dict.found("supportRadius") && dict.found("supportRadiusFactor"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Both 'supportRadius' and 'supportRadiusFactor' are given" << nl
+            << "    Give one of them: a length [m], or a multiple of the"
+            << " largest displacement" << nl << exit(FatalIOError);
+    }
+    settings.supportRadius =
+        dict.found("supportRadius")
+      ? dictionaryChecks::getPositive(dict, "supportRadius")
+      : 0;
+    settings.supportRadiusFactor =
+        dict.found("supportRadiusFactor")
+      ? dictionaryChecks::getPositive(dict, "supportRadiusFactor")
+      : 4;
+
+    settings.selection = readSelection(dict);
+
+    const scalar degrees =
+        dict.found("featureAngle")
+      ? dictionaryChecks::getPositive(dict, "featureAngle")
+      : 30;
+    if (degrees > 90)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'featureAngle' is " << degrees
+            << " but has to be at most 90 degrees" << nl
+            << exit(FatalIOError);
+    }
+    settings.featureAngle = degToRad(degrees);
+
+    settings.onInvalidMesh = invalidMeshNames.getOrDefault
+    (
+        "onInvalidMesh", dict, invalidMesh::error
+    );
+    return settings;
+}
+
+
+// ************************************************************************* //
