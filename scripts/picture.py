@@ -75,7 +75,7 @@ def picture(
     display.EdgeColor = [0.1, 0.2, 0.4] if field is None else [0.3, 0.3, 0.3]
     display.LineWidth = 1
     if field is None:
-        pv.ColorBy(display, None)
+        display.SetScalarColoring(None, 0)
         display.AmbientColor = display.DiffuseColor = [0.93, 0.95, 0.98]
     else:
         colour(display, view, mesh, field, range or visibleRange(

@@ -42,8 +42,12 @@ def makeCase(motion, linearSolver, step=1):
 
 
 def oneStep(case, angle):
-    """Applies the motion once; whether the mesh is valid"""
-    shutil.copytree(case / "0", case / str(angle), dirs_exist_ok=True)
+    """Applies the motion once to the undeformed mesh; whether the result is
+    valid. What an earlier angle wrote goes first: it would be the mesh to
+    start from."""
+    for time in case.glob("[1-9]*"):
+        shutil.rmtree(time)
+    shutil.copytree(case / "0", case / str(angle))
     with (case / f"log.morphMesh.{angle}").open("w") as log:
         status = subprocess.run(
             ["morphMesh", "-case", case, "-time", str(angle)],
