@@ -1,0 +1,84 @@
+"""The house keeps its shape: what may include what, and names that wmake can
+tell apart. Source of truth: the section "Where everything lives" of README.md.
+"""
+
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Each folder of src may include from itself and from those named here
+MAY_INCLUDE = {
+    "numerics": [],
+    "foam": ["numerics"],
+    "meshValidity": ["foam"],
+    "motion": ["foam", "numerics"],
+    "rbfMotionSolver": ["motion", "meshValidity", "foam", "numerics"],
+}
+
+
+def tracked():
+    """The files of the repository."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT,
+        check=True, stdout=subprocess.PIPE).stdout.decode().split("\n")
+    return [ROOT/name for name in listed if name and (ROOT/name).exists()]
+
+
+def sources(folder):
+    """The C++ files below a folder."""
+    return [path for path in tracked()
+            if path.suffix in (".C", ".H", ".cpp", ".hpp")
+            and (ROOT/folder) in path.parents]
+
+
+def home():
+    """The folder of src in which each of our headers is."""
+    return {path.name: path.relative_to(ROOT/"src").parts[0]
+            for path in sources("src")}
+
+
+def test_every_source_folder_has_its_place():
+    folders = {p.name for p in (ROOT/"src").iterdir() if p.is_dir()}
+    assert folders == set(MAY_INCLUDE)
+
+
+@pytest.mark.parametrize("folder", MAY_INCLUDE)
+def test_dependencies_point_downwards(folder):
+    where = home()
+    wrong = []
+    for path in sources(f"src/{folder}"):
+        for name in re.findall(r'#include "([^"]+)"', path.read_text()):
+            target = where.get(name, folder)
+            if target != folder and target not in MAY_INCLUDE[folder]:
+                wrong.append(f"{path.name} includes {name} of {target}")
+    assert not wrong
+
+
+def test_numerics_knows_nothing_of_openfoam():
+    wrong = [f"{path.name}: {line}"
+             for path in sources("src/numerics")
+             for line in re.findall(r"#include.*\.H\b.*", path.read_text())]
+    assert not wrong
+
+
+def test_wmake_can_tell_all_files_apart():
+    names = [p.name for folder in ("src", "applications", "tests", "tutorials")
+             for p in sources(folder)]
+    assert sorted(names) == sorted(set(names))
+
+
+def test_every_source_is_compiled():
+    listed = set((ROOT/"Make/files").read_text().split())
+    files = {str(p.relative_to(ROOT)) for p in sources("src")
+             if p.suffix in (".C", ".cpp")}
+    assert files <= listed
+
+
+def test_version_switches_are_in_one_header():
+    users = {path.name for path in sources("src") + sources("applications")
+             if re.search(r"#\s*if.*\bOPENFOAM\b", path.read_text())}
+    assert users <= {"foamCompat.H"}
