@@ -1,0 +1,141 @@
+"""Pictures of a case's mesh and fields, made with ParaView without a display.
+
+    withDisplay $(python3With paraview.simple) scripts/picture.py CASE OUTPUT.png
+        [-time T] [-box X0 X1 Y0 Y1] [-field NAME] [-range LOW HIGH] [-noLines]
+        [-width PIXELS]
+
+or picture(...) from a script run so; not by pvbatch, which takes options for
+its own. The view is along -z on the
+box, which the picture shows exactly; without it, on the whole mesh.
+"""
+
+import argparse
+from pathlib import Path
+
+from paraview import simple as pv
+
+# The camera is where picture() puts it, in the first picture as well
+pv._DisableFirstRenderCameraReset()
+
+
+def openCase(case, time=None):
+    """The internal mesh and its cell fields at that time (default: last).
+
+    ParaView's reader passes over time 0, which a case without other times
+    shows all the same."""
+    case = Path(case).resolve()
+    if not (case / "constant/polyMesh/faces").exists():
+        raise FileNotFoundError(f"{case} has no mesh (constant/polyMesh)")
+    marker = case / (case.name + ".foam")
+    marker.touch()
+    reader = pv.OpenFOAMReader(
+        FileName=str(marker), MeshRegions=["internalMesh"]
+    )
+    reader.UpdatePipelineInformation()
+    times = list(reader.TimestepValues)
+    if time is None:
+        time = times[-1] if times else 0.0
+    elif times and min(abs(t - time) for t in times) > 1e-6 * max(1, abs(time)):
+        raise ValueError(f"{case} has no time {time:g}, but {times}")
+    pv.GetAnimationScene().AnimationTime = time
+    pv.UpdatePipeline(time=time, proxy=reader)
+    return reader
+
+
+def picture(
+    case,
+    output,
+    time=None,
+    box=None,
+    field=None,
+    range=None,
+    lines=True,
+    width=1200,
+):
+    """Writes one picture: the mesh's lines and, if named, a field's colours.
+
+    box     (xMin, xMax, yMin, yMax) [m]: what the picture shows
+    range   (low, high) of the colours; default: the field's own in the box
+    """
+    view = pv.CreateView("RenderView")
+    mesh = openCase(case, time)
+    if box is None:
+        box = mesh.GetDataInformation().GetBounds()[:4]
+    xMin, xMax, yMin, yMax = box
+    height = round(width * (yMax - yMin) / (xMax - xMin))
+
+    view.ViewSize = [width, height]
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 0
+
+    display = pv.Show(mesh, view)
+    display.Representation = "Surface With Edges" if lines else "Surface"
+    display.Ambient, display.Diffuse, display.Specular = 1, 0, 0
+    display.EdgeColor = [0.1, 0.2, 0.4] if field is None else [0.3, 0.3, 0.3]
+    display.LineWidth = 1
+    if field is None:
+        display.SetScalarColoring(None, 0)
+        display.AmbientColor = display.DiffuseColor = [0.93, 0.95, 0.98]
+    else:
+        colour(display, view, mesh, field, range or visibleRange(
+            mesh, field, box))
+
+    view.CameraParallelProjection = 1
+    centre = [(xMin + xMax) / 2, (yMin + yMax) / 2]
+    view.CameraFocalPoint = centre + [0]
+    view.CameraPosition = centre + [10 * (xMax - xMin)]
+    view.CameraViewUp = [0, 1, 0]
+    view.CameraParallelScale = (yMax - yMin) / 2
+
+    Path(output).resolve().parent.mkdir(parents=True, exist_ok=True)
+    pv.Render(view)
+    pv.SaveScreenshot(str(output), view, ImageResolution=[width, height])
+    pv.Delete(view)
+
+
+def visibleRange(mesh, field, box):
+    """Of the field in the cells the picture shows"""
+    xMin, xMax, yMin, yMax = box
+    cut = pv.Clip(Input=mesh, ClipType="Box")
+    cut.ClipType.Position = [xMin, yMin, -1e9]
+    cut.ClipType.Length = [xMax - xMin, yMax - yMin, 2e9]
+    cut.UpdatePipeline()
+    array = cut.GetCellDataInformation().GetArray(field)
+    if array is None:
+        raise ValueError(f"there is no cell field '{field}'")
+    limits = array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+    pv.Delete(cut)
+    return limits
+
+
+def colour(display, view, mesh, field, limits):
+    pv.ColorBy(display, ("POINTS", field))
+    table = pv.GetColorTransferFunction(field)
+    table.ApplyPreset("Cool to Warm (Extended)", True)
+    table.RescaleTransferFunction(*limits)
+    bar = pv.GetScalarBar(table, view)
+    bar.Title, bar.ComponentTitle = field, ""
+    bar.TitleColor = bar.LabelColor = [0, 0, 0]
+    bar.TitleFontSize = bar.LabelFontSize = 20
+    bar.WindowLocation = "Lower Right Corner"
+    bar.ScalarBarLength = 0.35
+    display.SetScalarBarVisibility(view, True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("case")
+    parser.add_argument("output")
+    parser.add_argument("-time", type=float)
+    parser.add_argument("-box", type=float, nargs=4)
+    parser.add_argument("-field")
+    parser.add_argument("-range", type=float, nargs=2)
+    parser.add_argument("-noLines", dest="lines", action="store_false")
+    parser.add_argument("-width", type=int, default=1200)
+    arguments = vars(parser.parse_args())
+    picture(**arguments)
+
+
+if __name__ == "__main__":
+    main()
