@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace morph
@@ -62,6 +63,36 @@ Matrix solvedTransposed(const Lower& L, Matrix b)
     if (L.rows() > 0)
     {
         L.transpose().template triangularView<Eigen::Upper>().solveInPlace(b);
+    }
+    return b;
+}
+
+
+Matrix selectColumns(const Matrix& a, const std::vector<Index>& columns)
+{
+    Matrix b(a.rows(), columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+        b.col(j) = a.col(columns[j]);
+    }
+    return b;
+}
+
+
+Matrix select
+(
+    const Matrix& a,
+    const std::vector<Index>& rows,
+    const std::vector<Index>& columns
+)
+{
+    Matrix b(rows.size(), columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+        for (std::size_t i = 0; i < rows.size(); ++i)
+        {
+            b(i, j) = a(rows[i], columns[j]);
+        }
     }
     return b;
 }
@@ -218,13 +249,14 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
     }
 
     const Columns x = positions(list);
-    const Matrix YK = solved(L_.view(), kernelBlock(xM_, x));
-    Matrix TKK = kernelBlock(x, x);
-    TKK.noalias() -= YK.transpose()*YK;
+    result.Y = solved(L_.view(), kernelBlock(xM_, x));
+    result.TKK = kernelBlock(x, x);
+    result.TKK.noalias() -= result.Y.transpose()*result.Y;
+    result.TSK = kernelBlock(xS_, x);
 
     if (result.scalar)
     {
-        result.W = std::move(TKK);
+        result.W = result.TKK;
         for (std::size_t i = 0; i <= list.size(); ++i)
         {
             result.offset.push_back(i);
@@ -233,74 +265,117 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
     }
 
     result.offset = offsets(list);
-    result.W = constrained(TKK, list, list);
+    result.W = constrained(result.TKK, list, list);
     if (!sliding_.empty())
     {
-        Matrix TSK = kernelBlock(xS_, x);
-        TSK.noalias() -= Y_.view().transpose()*YK;
-        const Matrix Q = solved(R_.view(), constrained(TSK, sliding_, list));
+        result.TSK.noalias() -= Y_.view().transpose()*result.Y;
+        const Matrix Q =
+            solved(R_.view(), constrained(result.TSK, sliding_, list));
         result.W.noalias() -= Q.transpose()*Q;
     }
     return result;
 }
 
 
-std::vector<bool> GramFactor::append(const ControlPoints& points)
+std::vector<bool> GramFactor::append(const ControlPoints& list)
 {
+    std::vector<Index> all(list.size());
+    std::iota(all.begin(), all.end(), Index(0));
+    return append(list, all, residual(list));
+}
+
+
+std::vector<bool> GramFactor::append
+(
+    const ControlPoints& list,
+    const std::vector<Index>& which,
+    const Residual& residual
+)
+{
+    std::vector<Index> P, Q;
     ControlPoints prescribed, sliding;
-    for (const ControlPoint& p : points)
+    for (const Index i : which)
     {
-        (p.slides() ? sliding : prescribed).push_back(p);
+        (list[i].slides() ? Q : P).push_back(i);
+        (list[i].slides() ? sliding : prescribed).push_back(list[i]);
     }
 
     Index nextPrescribed = prescribed_.size();
     Index nextSliding = sliding_.size();
-    const bool prescribedIn = prescribed.empty() || appendPrescribed(prescribed);
-    const bool slidingIn = sliding.empty() || appendSliding(sliding);
+    const bool prescribedIn = P.empty() || appendPrescribed
+    (
+        prescribed,
+        selectColumns(residual.Y, P),
+        select(residual.TKK, P, P),
+        selectColumns(residual.TSK, P)
+    );
+
+    // What the prescribed ones, if they are in, take from the sliding ones
+    Matrix Y = selectColumns(residual.Y, Q);
+    Matrix T = select(residual.TKK, Q, Q);
+    Matrix TS = selectColumns(residual.TSK, Q);
+    if (prescribedIn && !P.empty() && !Q.empty())
+    {
+        const Index n = nextPrescribed;
+        const Index m = P.size();
+        const Matrix rows = solved
+        (
+            L_.view().bottomRightCorner(m, m), select(residual.TKK, P, Q)
+        );
+        Y.conservativeResize(n + m, Q.size());
+        Y.bottomRows(m) = rows;
+        T.noalias() -= rows.transpose()*rows;
+        if (nextSliding > 0)
+        {
+            TS.noalias() -= Y_.view().bottomRows(m).transpose()*rows;
+        }
+    }
+    const bool slidingIn = Q.empty() || appendSliding(sliding, Y, T, TS);
 
     std::vector<bool> in;
-    for (const ControlPoint& p : points)
+    for (const Index i : which)
     {
-        in.push_back(p.slides() ? slidingIn : prescribedIn);
+        const bool slides = list[i].slides();
+        in.push_back(slides ? slidingIn : prescribedIn);
         if (in.back())
         {
-            Index& next = p.slides() ? nextSliding : nextPrescribed;
-            entries_.push_back({p.slides(), next++});
+            Index& next = slides ? nextSliding : nextPrescribed;
+            entries_.push_back({slides, next++});
         }
     }
     return in;
 }
 
 
-bool GramFactor::appendPrescribed(const ControlPoints& points)
+bool GramFactor::appendPrescribed
+(
+    const ControlPoints& points,
+    const Matrix& X,
+    const Matrix& T,
+    const Matrix& TS
+)
 {
-    const Columns x = positions(points);
-    const Matrix X = solved(L_.view(), kernelBlock(xM_, x));
-    Matrix D = kernelBlock(x, x);
-    D.noalias() -= X.transpose()*X;
     Matrix l;
-    if (!cholesky(D, l))
+    if (!cholesky(T, l))
     {
         return false;
     }
 
     const Index n = xM_.rows();
-    const Index m = x.rows();
+    const Index m = points.size();
     const Index nS = xS_.rows();
     if (nS > 0)
     {
-        Matrix rows = kernelBlock(x, xS_);
-        rows.noalias() -= X.transpose()*Y_.view();
-        rows = solved(l, rows);
-        Matrix T = T_.view();
-        T.noalias() -= rows.transpose()*rows;
+        const Matrix rows = solved(l, TS.transpose());
+        Matrix TSS = T_.view();
+        TSS.noalias() -= rows.transpose()*rows;
         Matrix R;
-        if (!cholesky(constrained(T, sliding_, sliding_), R))
+        if (!cholesky(constrained(TSS, sliding_, sliding_), R))
         {
             return false;
         }
         R_.view() = R;
-        T_.view() = T;
+        T_.view() = TSS;
         Y_.grow(n + m, nS);
         Y_.view().bottomRows(m) = rows;
     }
@@ -312,22 +387,18 @@ bool GramFactor::appendPrescribed(const ControlPoints& points)
 }
 
 
-bool GramFactor::appendSliding(const ControlPoints& points)
+bool GramFactor::appendSliding
+(
+    const ControlPoints& points,
+    const Matrix& Y,
+    const Matrix& T,
+    const Matrix& TS
+)
 {
     const Index n = xS_.rows();
     const Index m = points.size();
-    const Columns x = positions(points);
-    const Matrix Y = solved(L_.view(), kernelBlock(xM_, x));
-    Matrix TSQ = kernelBlock(xS_, x);
-    if (n > 0)
-    {
-        TSQ.noalias() -= Y_.view().transpose()*Y;
-    }
-    Matrix TQQ = kernelBlock(x, x);
-    TQQ.noalias() -= Y.transpose()*Y;
-
-    const Matrix X = solved(R_.view(), constrained(TSQ, sliding_, points));
-    Matrix D = constrained(TQQ, points, points);
+    const Matrix X = solved(R_.view(), constrained(TS, sliding_, points));
+    Matrix D = constrained(T, points, points);
     D.noalias() -= X.transpose()*X;
     Matrix r;
     if (!cholesky(D, r))
@@ -339,9 +410,9 @@ bool GramFactor::appendSliding(const ControlPoints& points)
     Y_.grow(xM_.rows(), n + m);
     Y_.view().rightCols(m) = Y;
     T_.grow(n + m, n + m);
-    T_.view().topRightCorner(n, m) = TSQ;
-    T_.view().bottomLeftCorner(m, n) = TSQ.transpose();
-    T_.view().bottomRightCorner(m, m) = TQQ;
+    T_.view().topRightCorner(n, m) = TS;
+    T_.view().bottomLeftCorner(m, n) = TS.transpose();
+    T_.view().bottomRightCorner(m, m) = T;
     morph::append(xS_, points);
     sliding_.insert(sliding_.end(), points.begin(), points.end());
     return true;

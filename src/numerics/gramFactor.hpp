@@ -60,19 +60,32 @@ public:
     Columns centres() const;
 
     // The system that is left for further points once those appended are
-    // eliminated, W = G_KK - G_KA G_AA^-1 G_AK. Where neither the list nor
-    // those appended slide, one row stands for the three of a point.
+    // eliminated, W = G_KK - G_KA G_AA^-1 G_AK, and the parts of it that
+    // appending them needs again. Where neither the list nor those appended
+    // slide, one row of W stands for the three of a point.
     struct Residual
     {
         Matrix W;
         std::vector<Index> offset;   // first row of each point, and the end
         bool scalar;
+
+        Matrix Y;      // L^-1 K_MK
+        Matrix TKK;    // K_KK - Y^T Y
+        Matrix TSK;    // K_SK - Y_S^T Y
     };
     Residual residual(const ControlPoints& list) const;
 
-    // Appends points and tells which of them are in: those with which the
-    // system would be singular to round-off are left out.
-    std::vector<bool> append(const ControlPoints& points);
+    // Appends points of a list and tells which of them are in: those with
+    // which the system would be singular to round-off are left out.
+    std::vector<bool> append
+    (
+        const ControlPoints& list,
+        const std::vector<Index>& which,
+        const Residual& residual
+    );
+
+    // Appends all points of a list
+    std::vector<bool> append(const ControlPoints& list);
 
     // New prescribed values for the points, in the order they were appended,
     // and for the nodes of the polynomial
@@ -103,8 +116,20 @@ private:
         const ControlPoints& columns);
     Matrix constrained(const Matrix& scalar, const ControlPoints& rows,
         const ControlPoints& columns) const;
-    bool appendPrescribed(const ControlPoints& points);
-    bool appendSliding(const ControlPoints& points);
+    bool appendPrescribed
+    (
+        const ControlPoints& points,
+        const Matrix& X,
+        const Matrix& T,
+        const Matrix& TS
+    );
+    bool appendSliding
+    (
+        const ControlPoints& points,
+        const Matrix& Y,
+        const Matrix& T,
+        const Matrix& TS
+    );
     Matrix shift(const Columns& x) const;
 
     Kernel kernel_;

@@ -3,12 +3,13 @@
 #ifndef morph_greedySelection_hpp
 #define morph_greedySelection_hpp
 
-#include "communicator.hpp"
-#include "controlPoints.hpp"
+#include "controlSystem.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 
+#include <limits>
 #include <memory>
+#include <string>
 
 namespace morph
 {
@@ -19,8 +20,20 @@ enum class Polynomial
     linear
 };
 
+enum class Algorithm
+{
+    incremental,
+    schur,
+    standard
+};
+
+// All algorithms, in the order of the enumeration, with the names users type
+const std::vector<std::pair<Algorithm, std::string>>& algorithmNames();
+
 struct SelectionSettings
 {
+    Algorithm algorithm = Algorithm::incremental;
+
     // Largest error allowed, as a fraction of the largest prescribed
     // displacement of all candidates
     double tolerance = 1e-5;
@@ -28,7 +41,11 @@ struct SelectionSettings
     // Most points to select
     Index maxPoints = std::numeric_limits<Index>::max();
 
-    // Points appended in one sweep over the candidates; 0: as many as pay
+    // Of algorithm schur: N_res as a fraction of the current subset
+    double restartFraction = 0.1;
+
+    // Of algorithm incremental: points appended in one sweep over the
+    // candidates; 0: as many as pay. The other algorithms append one
     Index pointsPerSweep = 0;
 
     // Take every candidate, whatever its error
@@ -68,14 +85,26 @@ struct SelectionResult
 };
 
 
-// A way to choose control points from candidates that are spread over the
-// ranks, and to find their weights. What is selected, and the weights, are the
-// same on every rank and for every distribution of the candidates.
+// Chooses control points from candidates that are spread over the ranks, and
+// finds their weights: the candidate with the largest error is added until none
+// exceeds the tolerance. The algorithms differ in how they solve the system
+// (standardSystem.hpp, schurSystem.hpp, incrementalSystem.hpp); the last can
+// take points in blocks. What is selected, and the weights, are the same on
+// every rank and for every distribution of the candidates.
+//
+// Errors are evaluated from the weights in every sweep and never updated:
+// updated residuals drift and report convergence that is not there.
 class GreedySelection
 {
 public:
 
-    virtual ~GreedySelection() = default;
+    // Throws std::invalid_argument for settings that contradict each other
+    GreedySelection
+    (
+        const Kernel& kernel,
+        Polynomial polynomial,
+        const SelectionSettings& settings
+    );
 
     // Selects until every candidate, at whose position the interpolant should
     // meet C^T s = g, does so within the tolerance.
@@ -85,21 +114,69 @@ public:
     // only where the error exceeds the tolerance.
     //
     // Throws std::invalid_argument where the candidates cannot carry the
-    // polynomial asked for.
-    virtual SelectionResult select
+    // polynomial asked for, std::runtime_error where memory does not suffice;
+    // on all ranks alike.
+    SelectionResult select
     (
         const ControlPoints& candidates,
         Communicator& communicator
-    ) = 0;
+    );
 
     // The outcome of the last selection
-    virtual const RbfInterpolant& interpolant() const = 0;
+    const RbfInterpolant& interpolant() const { return interpolant_; }
 
     // |C^T s - g| of this rank's candidates after the last selection [m]
-    virtual const std::vector<double>& errors() const = 0;
+    const std::vector<double>& errors() const { return errors_.norms; }
 
     // Indices of this rank's candidates that are selected
-    virtual std::vector<Index> selected() const = 0;
+    std::vector<Index> selected() const;
+
+private:
+
+    // Where a selected point lives
+    struct Origin
+    {
+        int rank;
+        Index index;
+    };
+
+    void start(const ControlPoints& candidates, Communicator& communicator);
+    void makeSystem(const ControlPoints& candidates, Communicator& c);
+    void refreshValues(const ControlPoints& candidates, Communicator& c);
+    void sweep(const ControlPoints& candidates);
+    bool addPoints
+    (
+        const ControlPoints& candidates,
+        Communicator& communicator,
+        SelectionResult& result
+    );
+    Index pointsPerSweep() const;
+    double cellSize(const Listed& worst) const;
+    void take(const Listed& entry, int rank);
+    void reject(const Listed& entry, int rank);
+    void summarise
+    (
+        const ControlPoints& candidates,
+        Communicator& communicator,
+        SelectionResult& result
+    ) const;
+
+    Kernel kernel_;
+    Polynomial polynomial_;
+    SelectionSettings settings_;
+
+    bool started_ = false;
+    std::unique_ptr<PointCloud> cloud_;
+    std::unique_ptr<ControlSystem> system_;
+    RbfInterpolant interpolant_;
+
+    // What is selected, in the order of the system
+    std::vector<Origin> origins_;
+    std::vector<Vector3> values_;
+
+    Errors errors_;
+    std::vector<char> mine_;
+    Index rejected_ = 0;
 };
 
 } // namespace morph

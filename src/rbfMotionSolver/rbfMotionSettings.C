@@ -45,24 +45,36 @@ static const Enum<morph::Polynomial> polynomialNames
 });
 
 
-static morph::KernelType readKernel(const dictionary& dict)
+// One of the choices that the core has, by the name it has there
+template<class Type>
+static Type readNamed
+(
+    const dictionary& dict,
+    const word& key,
+    const std::vector<std::pair<Type, std::string>>& choices,
+    const Type deflt
+)
 {
-    const word name(dict.getOrDefault<word>("kernel", "wendlandC2"));
-    DynamicList<word> names;
-    for (const auto& known : morph::kernelNames())
+    if (!dict.found(key))
     {
-        if (known.second == name)
+        return deflt;
+    }
+    const word name(dict.get<word>(key));
+    DynamicList<word> names;
+    for (const auto& choice : choices)
+    {
+        if (choice.second == name)
         {
-            return known.first;
+            return choice.first;
         }
-        names.append(known.second);
+        names.append(choice.second);
     }
 
     FatalIOErrorInFunction(dict)
-        << "Entry 'kernel': there is no kernel '" << name << "'" << nl
-        << "    Valid kernels: " << flatOutput(names) << nl
+        << "Entry '" << key << "': there is no " << key << " '" << name << "'"
+        << nl << "    Valid choices: " << flatOutput(names) << nl
         << exit(FatalIOError);
-    return morph::KernelType::wendlandC2;
+    return deflt;
 }
 
 
@@ -109,19 +121,20 @@ static void readGreedy
     morph::SelectionSettings& selection
 )
 {
-    dictionaryChecks::onlyKeys
+    selection.algorithm = readNamed
     (
-        dict, {"tolerance", "maxPoints", "algorithm", "pointsPerSweep"}
+        dict, "algorithm", morph::algorithmNames(), selection.algorithm
     );
-
-    const word algorithm(dict.getOrDefault<word>("algorithm", "incremental"));
-    if (algorithm != "incremental")
+    wordList keys({"tolerance", "maxPoints", "algorithm"});
+    if (selection.algorithm == morph::Algorithm::incremental)
     {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'algorithm': there is no algorithm '" << algorithm << "'"
-            << nl << "    Valid algorithms: (incremental)" << nl
-            << exit(FatalIOError);
+        keys.append("pointsPerSweep");
     }
+    if (selection.algorithm == morph::Algorithm::schur)
+    {
+        keys.append("restartFraction");
+    }
+    dictionaryChecks::onlyKeys(dict, keys);
 
     if (dict.found("tolerance"))
     {
@@ -130,6 +143,11 @@ static void readGreedy
     if (dict.found("maxPoints"))
     {
         selection.maxPoints = readCount(dict, "maxPoints");
+    }
+    if (dict.found("restartFraction"))
+    {
+        selection.restartFraction =
+            dictionaryChecks::getPositive(dict, "restartFraction");
     }
     if (dict.found("pointsPerSweep"))
     {
@@ -184,7 +202,10 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
 {
     rbfMotionSettings settings;
 
-    settings.kernel = readKernel(dict);
+    settings.kernel = readNamed
+    (
+        dict, "kernel", morph::kernelNames(), morph::KernelType::wendlandC2
+    );
     settings.polynomial =
         readPolynomial(dict, morph::Kernel(settings.kernel, 1));
 

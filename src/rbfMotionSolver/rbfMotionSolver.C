@@ -26,7 +26,6 @@ License
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
-#include "incrementalSelection.hpp"
 #include "invalidMotion.H"
 #include "localIOdictionary.H"
 #include "movedGeometry.H"
@@ -391,7 +390,7 @@ void Foam::rbfMotionSolver::select()
         {
             selection_.reset
             (
-                new morph::IncrementalSelection
+                new morph::GreedySelection
                 (
                     morph::Kernel(settings_.kernel, supportRadius_),
                     settings_.polynomial,
@@ -404,7 +403,7 @@ void Foam::rbfMotionSolver::select()
             controlPoints_->candidates(), communicator
         );
     }
-    catch (const std::invalid_argument& wrong)
+    catch (const std::exception& wrong)
     {
         FatalIOErrorInFunction(coeffDict())
             << wrong.what() << nl << exit(FatalIOError);

@@ -1,0 +1,431 @@
+#include "greedySelection.hpp"
+
+#include "incrementalSystem.hpp"
+#include "memory.hpp"
+#include "polynomialNodes.hpp"
+#include "schurSystem.hpp"
+#include "standardSystem.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace morph
+{
+
+namespace
+{
+
+// In units of the distance from the worst candidate to what is selected: one
+// candidate per cell keeps neighbours, which one point corrects together, from
+// filling the list
+constexpr double cellFraction = 0.4;
+
+// Candidates in the list for each that is taken from it at most
+constexpr Index listFactor = 3;
+
+// Points taken in one go where every candidate is to be selected
+constexpr Index blockOfAll = 256;
+
+
+// Adds the wall time of its life to a sum
+class Stopwatch
+{
+public:
+
+    explicit Stopwatch(double& sum)
+    :
+        sum_(sum),
+        start_(std::chrono::steady_clock::now())
+    {}
+
+    ~Stopwatch()
+    {
+        sum_ += std::chrono::duration<double>
+            (std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+
+    double& sum_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+} // namespace
+
+
+const std::vector<std::pair<Algorithm, std::string>>& algorithmNames()
+{
+    static const std::vector<std::pair<Algorithm, std::string>> names
+    {
+        {Algorithm::incremental, "incremental"},
+        {Algorithm::schur, "schur"},
+        {Algorithm::standard, "standard"}
+    };
+    return names;
+}
+
+
+GreedySelection::GreedySelection
+(
+    const Kernel& kernel,
+    Polynomial polynomial,
+    const SelectionSettings& settings
+)
+:
+    kernel_(kernel),
+    polynomial_(polynomial),
+    settings_(settings),
+    interpolant_(kernel)
+{
+    if
+    (
+        !(settings.tolerance >= 0)
+     || settings.maxPoints < 1
+     || settings.pointsPerSweep < 0
+     || !(settings.restartFraction > 0)
+    )
+    {
+        throw std::invalid_argument
+        (
+            "selection needs a tolerance >= 0, at least one point, and a "
+            "positive restart fraction"
+        );
+    }
+    if (kernel.order() > 0 && polynomial == Polynomial::none)
+    {
+        throw std::invalid_argument
+        (
+            "a conditionally definite kernel needs a linear polynomial"
+        );
+    }
+    if
+    (
+        settings.algorithm != Algorithm::incremental
+     && (polynomial != Polynomial::none || settings.all)
+    )
+    {
+        throw std::invalid_argument
+        (
+            "algorithms schur and standard know no polynomial and no selection "
+            "of all points; algorithm incremental does"
+        );
+    }
+}
+
+
+std::vector<Index> GreedySelection::selected() const
+{
+    std::vector<Index> indices;
+    for (std::size_t i = 0; i < mine_.size(); ++i)
+    {
+        if (mine_[i])
+        {
+            indices.push_back(i);
+        }
+    }
+    return indices;
+}
+
+
+SelectionResult GreedySelection::select
+(
+    const ControlPoints& candidates,
+    Communicator& communicator
+)
+{
+    SelectionResult result;
+
+    double largest = 0;
+    for (const ControlPoint& p : candidates)
+    {
+        largest = std::max(largest, p.g().norm());
+    }
+    result.largestDisplacement = communicator.max(largest);
+    result.tolerance = settings_.tolerance*result.largestDisplacement;
+
+    {
+        Stopwatch time(result.solveTime);
+        if (!started_)
+        {
+            start(candidates, communicator);
+        }
+        else
+        {
+            refreshValues(candidates, communicator);
+        }
+        system_->solve(interpolant_);
+    }
+
+    const Index before = origins_.size();
+    do
+    {
+        Stopwatch time(result.sweepTime);
+        sweep(candidates);
+        ++result.sweeps;
+    }
+    while (addPoints(candidates, communicator, result));
+
+    result.added = Index(origins_.size()) - before;
+    summarise(candidates, communicator, result);
+    return result;
+}
+
+
+bool GreedySelection::addPoints
+(
+    const ControlPoints& candidates,
+    Communicator& communicator,
+    SelectionResult& result
+)
+{
+    const double least = settings_.all ? -1 : result.tolerance;
+    std::vector<Listed> list;
+    ControlSystem::Choice choice;
+    {
+        Stopwatch time(result.listTime);
+        double outside = 0;
+        list = candidateList
+        (
+            candidates, errors_, least, 1, 0, communicator, outside
+        );
+        const Index room = settings_.maxPoints - Index(origins_.size());
+        if (list.empty() || room <= 0)
+        {
+            return false;
+        }
+        const Index most = std::min(room, pointsPerSweep());
+        if (most > 1)
+        {
+            list = candidateList
+            (
+                candidates,
+                errors_,
+                least,
+                settings_.all ? most : listFactor*most,
+                settings_.all ? 0 : cellSize(list.front()),
+                communicator,
+                outside
+            );
+        }
+        choice = system_->choose
+        (
+            list, most, least, settings_.all ? least : outside
+        );
+    }
+
+    Stopwatch time(result.solveTime);
+    for (const Index i : choice.singular)
+    {
+        reject(list[i], communicator.rank());
+    }
+    const std::vector<bool> in = system_->append(list, choice.taken);
+    for (std::size_t i = 0; i < choice.taken.size(); ++i)
+    {
+        const Listed& entry = list[choice.taken[i]];
+        in[i]
+      ? take(entry, communicator.rank())
+      : reject(entry, communicator.rank());
+    }
+    system_->solve(interpolant_);
+    return true;
+}
+
+
+void GreedySelection::start
+(
+    const ControlPoints& candidates,
+    Communicator& communicator
+)
+{
+    origins_.clear();
+    values_.clear();
+    const Index n = candidates.size();
+    Vectors x(n, 3);
+    for (Index i = 0; i < n; ++i)
+    {
+        x.row(i) = candidates[i].position.transpose();
+    }
+    cloud_.reset(new PointCloud(x));
+    errors_.residuals.resize(n, 3);
+    errors_.norms.resize(n);
+    errors_.available.assign(n, 1);
+    mine_.assign(n, 0);
+
+    makeSystem(candidates, communicator);
+    started_ = true;
+}
+
+
+void GreedySelection::makeSystem
+(
+    const ControlPoints& candidates,
+    Communicator& communicator
+)
+{
+    switch (settings_.algorithm)
+    {
+        case Algorithm::standard:
+            system_.reset(new StandardSystem(kernel_));
+            return;
+
+        case Algorithm::schur:
+            system_.reset
+            (
+                new SchurSystem
+                (
+                    kernel_, settings_.restartFraction, candidates, communicator
+                )
+            );
+            return;
+
+        case Algorithm::incremental:
+            break;
+    }
+
+    if (settings_.all)
+    {
+        // Every rank has the whole factor
+        const double n = communicator.sum({double(candidates.size())})[0];
+        requireMemory
+        (
+            8*n*n,
+            "the system of all " + std::to_string(Index(n))
+          + " control points, by 'selection all',",
+            communicator
+        );
+    }
+
+    std::vector<Listed> nodes;
+    if (polynomial_ == Polynomial::linear)
+    {
+        nodes = polynomialNodes
+        (
+            kernel_, candidates, settings_.maxPoints, communicator
+        );
+    }
+    Matrix values(nodes.size(), 3);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+        take(nodes[i], communicator.rank());
+        values.row(i) = nodes[i].point.value.transpose();
+    }
+    system_.reset(new IncrementalSystem(kernel_, positions(nodes), values));
+}
+
+
+void GreedySelection::refreshValues
+(
+    const ControlPoints& candidates,
+    Communicator& communicator
+)
+{
+    std::vector<double> v(3*origins_.size(), 0.0);
+    for (std::size_t i = 0; i < origins_.size(); ++i)
+    {
+        if (origins_[i].rank == communicator.rank())
+        {
+            const Vector3& value = candidates[origins_[i].index].value;
+            std::copy(value.data(), value.data() + 3, &v[3*i]);
+        }
+    }
+    v = communicator.sum(v);
+    for (std::size_t i = 0; i < origins_.size(); ++i)
+    {
+        values_[i] = Eigen::Map<const Vector3>(&v[3*i]);
+    }
+
+    system_->setValues(values_);
+}
+
+
+void GreedySelection::sweep(const ControlPoints& candidates)
+{
+    const Vectors s = system_->evaluate(interpolant_, *cloud_);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+        const Vector3 r = candidates[i].residual(s.row(i).transpose());
+        errors_.residuals.row(i) = r.transpose();
+        errors_.norms[i] = r.norm();
+    }
+}
+
+
+Index GreedySelection::pointsPerSweep() const
+{
+    if (settings_.algorithm != Algorithm::incremental)
+    {
+        return 1;
+    }
+    if (settings_.all)
+    {
+        return blockOfAll;
+    }
+    return settings_.pointsPerSweep > 0
+      ? settings_.pointsPerSweep
+      : std::max<Index>(4, origins_.size()/10);
+}
+
+
+double GreedySelection::cellSize(const Listed& worst) const
+{
+    double nearest = kernel_.supportRadius();
+    const Columns& x = interpolant_.centres();
+    if (x.rows() > 0)
+    {
+        nearest = std::sqrt
+        (
+            (x.rowwise() - worst.point.position.transpose())
+           .rowwise().squaredNorm().minCoeff()
+        );
+    }
+    return cellFraction*nearest;
+}
+
+
+void GreedySelection::take(const Listed& entry, int rank)
+{
+    origins_.push_back({entry.rank, entry.index});
+    values_.push_back(entry.point.value);
+    if (entry.rank == rank)
+    {
+        errors_.available[entry.index] = 0;
+        mine_[entry.index] = 1;
+    }
+}
+
+
+void GreedySelection::reject(const Listed& entry, int rank)
+{
+    ++rejected_;
+    if (entry.rank == rank)
+    {
+        errors_.available[entry.index] = 0;
+    }
+}
+
+
+void GreedySelection::summarise
+(
+    const ControlPoints& candidates,
+    Communicator& communicator,
+    SelectionResult& result
+) const
+{
+    double largest = 0;
+    for (const double error : errors_.norms)
+    {
+        largest = std::max(largest, error);
+    }
+    result.largestError = communicator.max(largest);
+    result.candidates =
+        Index(communicator.sum({double(candidates.size())})[0]);
+    result.selected = origins_.size();
+    result.rejected = rejected_;
+    result.roundOff =
+        std::numeric_limits<double>::epsilon()
+       *interpolant_.weights().rowwise().norm().sum();
+}
+
+} // namespace morph
