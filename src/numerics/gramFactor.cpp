@@ -254,7 +254,8 @@ std::vector<bool> GramFactor::append(const ControlPoints& points)
 
     Index nextPrescribed = prescribed_.size();
     Index nextSliding = sliding_.size();
-    const bool prescribedIn = prescribed.empty() || appendPrescribed(prescribed);
+    const bool prescribedIn =
+        prescribed.empty() || appendPrescribed(prescribed);
     const bool slidingIn = sliding.empty() || appendSliding(sliding);
 
     std::vector<bool> in;
