@@ -113,8 +113,8 @@ public:
     // for their values g: then what is selected stays so, and points are added
     // only where the error exceeds the tolerance.
     //
-    // Throws std::invalid_argument where the candidates cannot carry the
-    // polynomial asked for, std::runtime_error where memory does not suffice;
+    // Throws std::invalid_argument where a value is not finite or the candidates
+    // cannot carry the polynomial asked for, std::runtime_error where memory does not suffice;
     // on all ranks alike.
     SelectionResult select
     (
