@@ -22,9 +22,11 @@ License
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "wedgePolyPatch.H"
+#include "fixedNormalSlipPointPatchField.H"
 #include "fixedValuePointPatchFields.H"
 #include "pointFields.H"
 #include "FlatOutput.H"
+#include "StringStream.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -59,6 +61,7 @@ Foam::controlPointGroup::controlPointGroup
     name_(name),
     part_(partNames.get("type", dict)),
     surface_(surfaceType::found),
+    normal_(Zero),
     displacement_(nullptr)
 {
     dictionaryChecks::onlyKeys
@@ -119,6 +122,7 @@ Foam::controlPointGroup::controlPointGroup
     name_(mesh.boundaryMesh()[patchi].name()),
     part_(p),
     surface_(surfaceType::found),
+    normal_(Zero),
     patches_(1, patchi),
     displacement_(nullptr)
 {
@@ -128,6 +132,10 @@ Foam::controlPointGroup::controlPointGroup
         field.add("type", "pointDisplacement");
         displacement_ =
             prescribedDisplacement::New(field, mesh, patches_, 0);
+    }
+    else if (p == part::sliding)
+    {
+        readNormal();
     }
 }
 
@@ -179,6 +187,25 @@ void Foam::controlPointGroup::selectPatches()
         {
             patches_.append(patchi);
         }
+    }
+}
+
+
+void Foam::controlPointGroup::readNormal()
+{
+    const auto& field =
+        mesh_.lookupObject<pointVectorField>("pointDisplacement");
+    const pointPatchVectorField& condition =
+        field.boundaryField()[patches_[0]];
+
+    if (isA<fixedNormalSlipPointPatchField<vector>>(condition))
+    {
+        // It tells its normal to nobody but the file that it is written to
+        OStringStream written;
+        condition.write(written);
+        IStringStream entries(written.str());
+        const vector n(dictionary(entries).get<vector>("n"));
+        normal_ = n/max(mag(n), VSMALL);
     }
 }
 

@@ -300,11 +300,14 @@ Foam::vectorField Foam::rbfControlPoints::targetAreas
         }
     }
 
+    const bool given = magSqr(group.normal()) > 0;
     vectorField areas(faces.size());
     forAll(faces, i)
     {
         const face& f = mesh_.faces()[faces[i]];
-        areas[i] = plane_.reduce(f.centre(points0_), f.areaNormal(target));
+        const vector area =
+            given ? group.normal()*f.mag(points0_) : f.areaNormal(target);
+        areas[i] = plane_.reduce(f.centre(points0_), area);
     }
     return areas;
 }
