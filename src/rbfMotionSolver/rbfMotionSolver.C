@@ -31,6 +31,7 @@ License
 #include "localIOdictionary.H"
 #include "movedGeometry.H"
 #include "pointFields.H"
+#include "processorCyclicPolyPatch.H"
 #include "pstreamCommunicator.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
@@ -573,7 +574,7 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     bool some = false;
     for (const polyPatch& patch : mesh().boundaryMesh())
     {
-        if (isA<cyclicPolyPatch>(patch))
+        if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
         {
             some = true;
             UIndirectList<bool>(isCyclic, patch.meshPoints()) = true;
@@ -585,21 +586,18 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     }
     syncTools::syncPointList(mesh(), isCyclic, orEqOp<bool>(), false);
 
-    vectorField sum(displacement);
-    scalarField copies(mesh().nPoints(), 1);
-    syncTools::syncPointList
-    (
-        mesh(), sum, plusEqOp<vector>(), vector(Zero)
-    );
-    syncTools::syncPointList
-    (
-        mesh(), copies, plusEqOp<scalar>(), scalar(0)
-    );
+    // Mean of both sides as half of smallest plus largest: ranks that share a
+    // point leave no trace in it
+    const vector none = vector::uniform(GREAT);
+    vectorField smallest(displacement);
+    vectorField largest(displacement);
+    syncTools::syncPointList(mesh(), smallest, minEqOp<vector>(), none);
+    syncTools::syncPointList(mesh(), largest, maxEqOp<vector>(), -none);
     forAll(displacement, pointi)
     {
         if (isCyclic[pointi])
         {
-            displacement[pointi] = sum[pointi]/copies[pointi];
+            displacement[pointi] = 0.5*(smallest[pointi] + largest[pointi]);
         }
     }
 }
