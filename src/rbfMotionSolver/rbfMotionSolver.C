@@ -108,7 +108,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
         pointIOField(points0IO(mesh)),
         typeName
     ),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -126,7 +126,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
 )
 :
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -160,8 +160,10 @@ void Foam::rbfMotionSolver::readPointDisplacement()
 }
 
 
-void Foam::rbfMotionSolver::initialise()
+const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
+    // Without a dictionary of coefficients this is dynamicMeshDict itself,
+    // with keys of others
     if (found(typeName + "Coeffs"))
     {
         dictionaryChecks::onlyKeys
@@ -174,6 +176,12 @@ void Foam::rbfMotionSolver::initialise()
             }
         );
     }
+    return coeffDict();
+}
+
+
+void Foam::rbfMotionSolver::initialise()
+{
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
