@@ -258,7 +258,8 @@ void Foam::rbfControlPoints::checkTwins() const
 void Foam::rbfControlPoints::own()
 {
     // The master of points that ranks share tells the others that they are
-    // slaves. Points coupled by a cyclic are different points
+    // slaves. Points coupled by a cyclic are different points, of which one
+    // copy each is no slave: those with one transformation are the same point
     const globalMeshData& global = mesh_.globalData();
     const labelList& coupled = global.coupledPatch().meshPoints();
     const labelListList& slaves = global.globalPointSlaves();
@@ -270,6 +271,24 @@ void Foam::rbfControlPoints::own()
         for (const label slot : these)
         {
             isSlave[slot] = 1;
+        }
+    }
+    for (const labelList& these : global.globalPointTransformedSlaves())
+    {
+        labelHashSet known;
+        for (const label slot : these)
+        {
+            // The last transformation whose slots start before this one
+            label transformi = map.transformStart().size() - 1;
+            while (map.transformStart()[transformi] > slot)
+            {
+                --transformi;
+            }
+            if (!known.insert(transformi))
+            {
+                const label start = map.transformStart()[transformi];
+                isSlave[map.transformElements()[transformi][slot - start]] = 1;
+            }
         }
     }
     map.reverseDistribute(coupled.size(), isSlave, false);

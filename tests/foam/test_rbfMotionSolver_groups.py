@@ -231,3 +231,23 @@ def test_a_patch_of_an_earlier_group_wins_over_a_listed_point(tmp_path):
     after = move(case)
     top = side(before, "zMax")
     np.testing.assert_array_equal(after[top], before[top] + (0, 0, 0.1))
+
+
+@pytest.mark.parametrize("at", [(1, 1, 1), (0.4, 0.4, 0.4)])
+def test_the_earlier_group_wins_at_a_point_that_two_list(tmp_path, at):
+    # On the mesh and off it
+    body = ("type moving; points ((%s)); displacement"
+            " { type uniform; value (0 0 %g); }")
+    two = rbf_case(tmp_path/"two", coeffs="supportRadius 1;" + groups(
+        a=body % (words(at), 0.05), b=body % (words(at), 0.1), bottom=BOTTOM))
+    one = rbf_case(tmp_path/"one", coeffs="supportRadius 1;" + groups(
+        a=body % (words(at), 0.05), bottom=BOTTOM))
+    after = move(two)
+    assert np.abs(after - reference(two)).max() > 0.04
+    np.testing.assert_array_equal(after, move(one))
+
+
+def test_points_listed_twice_with_one_displacement_count_once(tmp_path):
+    case = top_case(tmp_path, "type values; values ((0 0 0.1) (0 0 0.1));",
+                    select="points ((0.4 0.4 0.4) (0.4 0.4 0.4));")
+    assert selections(case.run("moveDynamicMesh"))[0][1] == 25 + 1
