@@ -84,10 +84,11 @@ static morph::Polynomial readPolynomial
     const morph::Kernel& kernel
 )
 {
-    const morph::Polynomial p = polynomialNames.getOrDefault
+    const morph::Polynomial p = dictionaryChecks::getChoice
     (
-        "polynomial",
         dict,
+        "polynomial",
+        polynomialNames,
         kernel.order() > 0 ? morph::Polynomial::linear : morph::Polynomial::none
     );
     if (kernel.order() > 0 && p == morph::Polynomial::none)
@@ -240,9 +241,9 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     }
     settings.featureAngle = degToRad(degrees);
 
-    settings.onInvalidMesh = invalidMeshNames.getOrDefault
+    settings.onInvalidMesh = dictionaryChecks::getChoice
     (
-        "onInvalidMesh", dict, invalidMesh::error
+        dict, "onInvalidMesh", invalidMeshNames, invalidMesh::error
     );
     return settings;
 }

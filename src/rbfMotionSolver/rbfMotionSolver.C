@@ -30,6 +30,7 @@ License
 #include "localIOdictionary.H"
 #include "movedGeometry.H"
 #include "pointFields.H"
+#include "processorCyclicPolyPatch.H"
 #include "pstreamCommunicator.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
@@ -106,7 +107,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
         pointIOField(points0IO(mesh)),
         typeName
     ),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -124,7 +125,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
 )
 :
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -158,8 +159,10 @@ void Foam::rbfMotionSolver::readPointDisplacement()
 }
 
 
-void Foam::rbfMotionSolver::initialise()
+const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
+    // Without a dictionary of coefficients this is dynamicMeshDict itself,
+    // with keys of others
     if (found(typeName + "Coeffs"))
     {
         dictionaryChecks::onlyKeys
@@ -172,6 +175,12 @@ void Foam::rbfMotionSolver::initialise()
             }
         );
     }
+    return coeffDict();
+}
+
+
+void Foam::rbfMotionSolver::initialise()
+{
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
@@ -572,7 +581,7 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     bool some = false;
     for (const polyPatch& patch : mesh().boundaryMesh())
     {
-        if (isA<cyclicPolyPatch>(patch))
+        if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
         {
             some = true;
             UIndirectList<bool>(isCyclic, patch.meshPoints()) = true;
@@ -584,21 +593,18 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     }
     syncTools::syncPointList(mesh(), isCyclic, orEqOp<bool>(), false);
 
-    vectorField sum(displacement);
-    scalarField copies(mesh().nPoints(), 1);
-    syncTools::syncPointList
-    (
-        mesh(), sum, plusEqOp<vector>(), vector(Zero)
-    );
-    syncTools::syncPointList
-    (
-        mesh(), copies, plusEqOp<scalar>(), scalar(0)
-    );
+    // Mean of both sides as half of smallest plus largest: ranks that share a
+    // point leave no trace in it
+    const vector none = vector::uniform(GREAT);
+    vectorField smallest(displacement);
+    vectorField largest(displacement);
+    syncTools::syncPointList(mesh(), smallest, minEqOp<vector>(), none);
+    syncTools::syncPointList(mesh(), largest, maxEqOp<vector>(), -none);
     forAll(displacement, pointi)
     {
         if (isCyclic[pointi])
         {
-            displacement[pointi] = sum[pointi]/copies[pointi];
+            displacement[pointi] = 0.5*(smallest[pointi] + largest[pointi]);
         }
     }
 }
