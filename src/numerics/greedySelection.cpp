@@ -137,6 +137,19 @@ GreedySelection::GreedySelection
 }
 
 
+Vectors GreedySelection::residuals(const ControlPoints& candidates) const
+{
+    Vectors r(candidates.size(), 3);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+        const ControlPoint& p = candidates[i];
+        r.row(i) =
+            errors_.residuals.row(i).head(p.k)*p.C().transpose();
+    }
+    return r;
+}
+
+
 std::vector<Index> GreedySelection::selected() const
 {
     std::vector<Index> indices;

@@ -128,6 +128,10 @@ public:
     // |C^T s - g| of this rank's candidates after the last selection [m]
     const std::vector<double>& errors() const { return errors_.norms; }
 
+    // C (g - C^T s) of this rank's candidates, which must be those of the last
+    // selection: n x 3 [m]
+    Vectors residuals(const ControlPoints& candidates) const;
+
     // Indices of this rank's candidates that are selected
     std::vector<Index> selected() const;
 

@@ -227,6 +227,8 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
       : 4;
 
     settings.selection = readSelection(dict);
+    settings.surfaceCorrection =
+        dict.getOrDefault<bool>("surfaceCorrection", false);
 
     const scalar degrees =
         dict.found("featureAngle")

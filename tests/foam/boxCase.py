@@ -105,13 +105,17 @@ def write_control(case, end=1, deltaT=1, format="ascii", digits=17,
         startFrom=startFrom, writeInterval=writeInterval))
 
 
-def box(path, patches, control=None, **mesh):
-    """A meshed box; control: arguments of write_control()."""
-    shutil.copytree(_meshed(block_mesh(patches, **mesh)), path,
-                    dirs_exist_ok=True)
+def from_block_mesh(path, block_mesh_dict, control=None):
+    """A meshed case; control: arguments of write_control()."""
+    shutil.copytree(_meshed(block_mesh_dict), path, dirs_exist_ok=True)
     case = FoamCase(path)
     write_control(case, **(control or {}))
     return case
+
+
+def box(path, patches, control=None, **mesh):
+    """A meshed box; control: arguments of write_control()."""
+    return from_block_mesh(path, block_mesh(patches, **mesh), control)
 
 
 def point_field(conditions, dimensions="0 1 0 0 0 0 0"):
