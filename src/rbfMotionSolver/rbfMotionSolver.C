@@ -38,6 +38,9 @@ License
 #include "syncTools.H"
 #include "zeroGradientPointPatchField.H"
 
+#include <limits>
+#include <sstream>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 namespace Foam
@@ -180,8 +183,38 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 }
 
 
+void Foam::rbfMotionSolver::readProperties()
+{
+    if (settings_.supportRadius > 0)
+    {
+        return;
+    }
+    properties_.reset
+    (
+        new IOdictionary
+        (
+            IOobject
+            (
+                typeName + "Properties",
+                mesh().time().timeName(),
+                "uniform",
+                mesh(),
+                IOobject::READ_IF_PRESENT,
+                IOobject::AUTO_WRITE
+            )
+        )
+    );
+    string digits;
+    if (properties_->readIfPresent("largestDisplacement", digits))
+    {
+        readScalar(digits, largestDisplacement_);
+    }
+}
+
+
 void Foam::rbfMotionSolver::initialise()
 {
+    readProperties();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
@@ -379,6 +412,15 @@ bool Foam::rbfMotionSolver::updateSupportRadius()
     }
     largestDisplacement_ =
         max(largestDisplacement_, returnReduce(largest, maxOp<scalar>()));
+
+    if (properties_.valid())
+    {
+        // A string, since numbers are written with writePrecision digits
+        std::ostringstream digits;
+        digits.precision(std::numeric_limits<scalar>::max_digits10);
+        digits << largestDisplacement_;
+        properties_->set("largestDisplacement", string(digits.str()));
+    }
 
     const scalar former = supportRadius_;
     supportRadius_ =
