@@ -518,23 +518,25 @@ void Foam::rbfMotionSolver::warn(const morph::SelectionResult& result)
 }
 
 
-const Foam::scalarField& Foam::rbfMotionSolver::firstCellHeight()
+const Foam::List<Foam::scalarField>& Foam::rbfMotionSolver::firstCellHeight()
 {
     if (firstCellHeight_.empty())
     {
         const movedGeometry geometry(mesh(), points0());
-        firstCellHeight_.setSize(mesh().nPoints(), GREAT);
-        for (const polyPatch& patch : mesh().boundaryMesh())
+        firstCellHeight_.setSize(mesh().boundaryMesh().nNonProcessor());
+        forAll(firstCellHeight_, patchi)
         {
+            const polyPatch& patch = mesh().boundaryMesh()[patchi];
+            scalarField& least = firstCellHeight_[patchi];
+            least.setSize(patch.nPoints(), GREAT);
             forAll(patch, i)
             {
                 const scalar height =
                     geometry.cellVolumes()[patch.faceCells()[i]]
                    /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
-                for (const label pointi : patch[i])
+                for (const label pointi : patch.localFaces()[i])
                 {
-                    scalar& least = firstCellHeight_[pointi];
-                    least = min(least, height);
+                    least[pointi] = min(least[pointi], height);
                 }
             }
         }
@@ -548,30 +550,30 @@ void Foam::rbfMotionSolver::warnOfFirstCells
     const morph::SelectionResult& result
 )
 {
-    Map<scalar> error;
+    scalarField error(mesh().nPoints(), Zero);
     forAll(controlPoints_->candidatePoints(), i)
     {
-        error.insert
-        (
-            controlPoints_->candidatePoints()[i], selection_->errors()[i]
-        );
+        const label pointi = controlPoints_->candidatePoints()[i];
+        if (pointi >= 0)
+        {
+            error[pointi] = selection_->errors()[i];
+        }
     }
+    syncTools::syncPointList(mesh(), error, maxEqOp<scalar>(), scalar(0));
 
+    const List<scalarField>& height = firstCellHeight();
     scalar worst = 0;
     word worstPatch;
-    for (label patchi = 0; patchi < mesh().boundaryMesh().nNonProcessor(); ++patchi)
+    forAll(height, patchi)
     {
         const polyPatch& patch = mesh().boundaryMesh()[patchi];
         scalar ratio = 0;
         if (!polyPatch::constraintType(patch.type()))
         {
-            for (const label pointi : patch.meshPoints())
+            forAll(patch.meshPoints(), i)
             {
-                const auto found = error.cfind(pointi);
-                if (found.found())
-                {
-                    ratio = max(ratio, found.val()/firstCellHeight()[pointi]);
-                }
+                ratio =
+                    max(ratio, error[patch.meshPoints()[i]]/height[patchi][i]);
             }
         }
         reduce(ratio, maxOp<scalar>());
