@@ -31,6 +31,9 @@ License
 #include "pstreamCommunicator.H"
 #include "syncTools.H"
 
+#include <limits>
+#include <sstream>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 namespace Foam
@@ -75,7 +78,6 @@ static IOobject pointDisplacementIO(const polyMesh& mesh)
         false
     );
 }
-
 
 } // End namespace Foam
 
@@ -175,8 +177,38 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 }
 
 
+void Foam::rbfMotionSolver::readProperties()
+{
+    if (settings_.supportRadius > 0)
+    {
+        return;
+    }
+    properties_.reset
+    (
+        new IOdictionary
+        (
+            IOobject
+            (
+                typeName + "Properties",
+                mesh().time().timeName(),
+                "uniform",
+                mesh(),
+                IOobject::READ_IF_PRESENT,
+                IOobject::AUTO_WRITE
+            )
+        )
+    );
+    string digits;
+    if (properties_->readIfPresent("largestDisplacement", digits))
+    {
+        readScalar(digits, largestDisplacement_);
+    }
+}
+
+
 void Foam::rbfMotionSolver::initialise()
 {
+    readProperties();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
@@ -185,7 +217,12 @@ void Foam::rbfMotionSolver::initialise()
             << "    Remove them; what should stay is a group of type fixed"
             << nl << exit(FatalIOError);
     }
+    makeGroups();
+}
 
+
+void Foam::rbfMotionSolver::makeGroups()
+{
     groups_.reset
     (
         new controlPointGroups(mesh(), coeffDict(), pointDisplacement_)
@@ -237,6 +274,15 @@ bool Foam::rbfMotionSolver::updateSupportRadius()
     }
     largestDisplacement_ =
         max(largestDisplacement_, returnReduce(largest, maxOp<scalar>()));
+
+    if (properties_.valid())
+    {
+        // A string, since numbers are written with writePrecision digits
+        std::ostringstream digits;
+        digits.precision(std::numeric_limits<scalar>::max_digits10);
+        digits << largestDisplacement_;
+        properties_->set("largestDisplacement", string(digits.str()));
+    }
 
     const scalar former = supportRadius_;
     supportRadius_ =
@@ -451,7 +497,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     controlPoints_.clear();
     plane_.clear();
     report_.clear();
-    initialise();
+    makeGroups();
 }
 
 

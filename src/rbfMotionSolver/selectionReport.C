@@ -19,6 +19,7 @@ License
 
 #include "selectionReport.H"
 #include "movedGeometry.H"
+#include "syncTools.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -38,18 +39,20 @@ Foam::selectionReport::selectionReport
 void Foam::selectionReport::findFirstCellHeight(const pointField& points0)
 {
     const movedGeometry geometry(mesh_, points0);
-    firstCellHeight_.setSize(mesh_.nPoints(), GREAT);
-    for (const polyPatch& patch : mesh_.boundaryMesh())
+    firstCellHeight_.setSize(mesh_.boundaryMesh().nNonProcessor());
+    forAll(firstCellHeight_, patchi)
     {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        scalarField& least = firstCellHeight_[patchi];
+        least.setSize(patch.nPoints(), GREAT);
         forAll(patch, i)
         {
             const scalar height =
                 geometry.cellVolumes()[patch.faceCells()[i]]
                /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
-            for (const label pointi : patch[i])
+            for (const label pointi : patch.localFaces()[i])
             {
-                scalar& least = firstCellHeight_[pointi];
-                least = min(least, height);
+                least[pointi] = min(least[pointi], height);
             }
         }
     }
@@ -114,11 +117,17 @@ void Foam::selectionReport::warnOfFirstCells
     const scalar largestDisplacement
 )
 {
-    Map<scalar> error;
+    // Negative where there is no control point. Of points that ranks share one
+    // of them has the candidate
+    scalarField error(mesh_.nPoints(), -1);
     forAll(meshPoints, i)
     {
-        error.insert(meshPoints[i], errors[i]);
+        if (meshPoints[i] >= 0)
+        {
+            error[meshPoints[i]] = errors[i];
+        }
     }
+    syncTools::syncPointList(mesh_, error, maxEqOp<scalar>(), scalar(-1));
     if (firstCellHeight_.empty())
     {
         findFirstCellHeight(points0);
@@ -129,23 +138,22 @@ void Foam::selectionReport::warnOfFirstCells
 
     // A tolerance this small would leave no error above a tenth of a height
     scalar allowed = GREAT;
-    const label nPatches = mesh_.boundaryMesh().nNonProcessor();
-    for (label patchi = 0; patchi < nPatches; ++patchi)
+    forAll(firstCellHeight_, patchi)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        if (polyPatch::constraintType(patch.type()))
+        {
+            continue;
+        }
         scalar ratio = 0;
         scalar height = GREAT;
-        if (!polyPatch::constraintType(patch.type()))
+        forAll(patch.meshPoints(), i)
         {
-            for (const label pointi : patch.meshPoints())
+            const scalar e = error[patch.meshPoints()[i]];
+            if (e >= 0)
             {
-                const auto found = error.cfind(pointi);
-                if (found.found())
-                {
-                    const scalar h = firstCellHeight_[pointi];
-                    ratio = max(ratio, found.val()/h);
-                    height = min(height, h);
-                }
+                ratio = max(ratio, e/firstCellHeight_[patchi][i]);
+                height = min(height, firstCellHeight_[patchi][i]);
             }
         }
         reduce(ratio, maxOp<scalar>());
