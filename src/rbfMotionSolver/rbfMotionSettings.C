@@ -72,7 +72,7 @@ static Type readNamed
 
     FatalIOErrorInFunction(dict)
         << "Entry '" << key << "': there is no " << key << " '" << name << "'"
-        << nl << "    Valid choices: " << flatOutput(names) << nl
+        << nl << "    Valid " << key << "s: " << flatOutput(names) << nl
         << exit(FatalIOError);
     return deflt;
 }
