@@ -20,6 +20,7 @@ License
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "FlatOutput.H"
+#include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -48,11 +49,12 @@ Foam::scalar Foam::dictionaryChecks::getPositive
     const word& key
 )
 {
-    const scalar value = dict.get<scalar>(key);
+    const token given(dict.lookup(key));
+    const scalar value = given.isNumber() ? dict.get<scalar>(key) : -1;
     if (!(value > 0) || value > VGREAT)
     {
         FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value
+            << "Entry '" << key << "' is " << given
             << " but has to be a positive number" << nl
             << exit(FatalIOError);
     }
@@ -66,6 +68,11 @@ void Foam::dictionaryChecks::stopIf
     const string& message
 )
 {
+    if (!returnReduce(!message.empty(), orOp<bool>()))
+    {
+        return;
+    }
+
     List<string> messages(Pstream::nProcs());
     messages[Pstream::myProcNo()] = message;
     foamCompat::allGatherList(messages);

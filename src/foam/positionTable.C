@@ -37,8 +37,11 @@ Foam::positionTable::positionTable(const pointField& points)
     treeBoundBox box(points_);
     span_ = box.mag();
 
-    // A box without thickness cannot be divided
-    const vector room = vector::uniform(1e-3*span_ + ROOTVSMALL);
+    // A box without thickness cannot be divided, nor can one of a single
+    // point; ROOTVSMALL alone is lost beside the position
+    const scalar magnitude = mag(box.min()) + mag(box.max());
+    const vector room =
+        vector::uniform(1e-3*span_ + 1e-6*magnitude + ROOTVSMALL);
     box.min() -= room;
     box.max() += room;
 

@@ -61,7 +61,7 @@ Foam::fileDisplacement::fileDisplacement
     tolerance_ =
         dict.found("tolerance")
       ? dictionaryChecks::getPositive(dict, "tolerance")
-      : 1e-6*table_->span() + ROOTVSMALL;
+      : 1e-6*(table_->span() > 0 ? table_->span() : mesh.bounds().mag());
 }
 
 
@@ -123,8 +123,7 @@ Foam::tmp<Foam::vectorField> Foam::fileDisplacement::unscaled
 ) const
 {
     auto d = tmp<vectorField>::New(p.positions.size(), Zero);
-    label nMissing = 0;
-    OStringStream example;
+    OStringStream message;
     forAll(p.positions, i)
     {
         const label place = table_->find(p.positions[i], tolerance_);
@@ -132,22 +131,15 @@ Foam::tmp<Foam::vectorField> Foam::fileDisplacement::unscaled
         {
             d.ref()[i] = values_[place];
         }
-        else if (nMissing++ == 0)
+        else if (message.str().empty())
         {
-            example << p.positions[i];
+            message
+                << "Entry 'file': control points of the group, for example "
+                << p.positions[i] << "," << nl << "    have no line in "
+                << dict().get<fileName>("file") << " within " << tolerance_
+                << " m of them" << nl
+                << "    Add a line for each, or raise 'tolerance'";
         }
-    }
-
-    OStringStream message;
-    const label nAll = returnReduce(nMissing, sumOp<label>());
-    if (nMissing > 0)
-    {
-        message
-            << "Entry 'file': " << nAll << " control points, for example "
-            << example.str() << "," << nl << "    have no line in "
-            << dict().get<fileName>("file") << " within " << tolerance_
-            << " m of them" << nl
-            << "    Add them, or raise 'tolerance'";
     }
     dictionaryChecks::stopIf(dict(), message.str());
     return d;

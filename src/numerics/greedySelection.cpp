@@ -52,6 +52,28 @@ private:
     std::chrono::steady_clock::time_point start_;
 };
 
+// The largest prescribed displacement of all ranks; throws on all of them if
+// any of them has one that is not finite
+double largestValue(const ControlPoints& candidates, Communicator& communicator)
+{
+    const double infinite = std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (const ControlPoint& p : candidates)
+    {
+        const bool finite = p.position.allFinite() && p.g().allFinite();
+        largest = std::max(largest, finite ? p.g().norm() : infinite);
+    }
+    largest = communicator.max(largest);
+    if (!std::isfinite(largest))
+    {
+        throw std::invalid_argument
+        (
+            "the position or displacement of a control point is not finite"
+        );
+    }
+    return largest;
+}
+
 } // namespace
 
 
@@ -115,6 +137,19 @@ GreedySelection::GreedySelection
 }
 
 
+Vectors GreedySelection::residuals(const ControlPoints& candidates) const
+{
+    Vectors r(candidates.size(), 3);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+        const ControlPoint& p = candidates[i];
+        r.row(i) =
+            errors_.residuals.row(i).head(p.k)*p.C().transpose();
+    }
+    return r;
+}
+
+
 std::vector<Index> GreedySelection::selected() const
 {
     std::vector<Index> indices;
@@ -137,13 +172,7 @@ SelectionResult GreedySelection::select
 )
 {
     SelectionResult result;
-
-    double largest = 0;
-    for (const ControlPoint& p : candidates)
-    {
-        largest = std::max(largest, p.g().norm());
-    }
-    result.largestDisplacement = communicator.max(largest);
+    result.largestDisplacement = largestValue(candidates, communicator);
     result.tolerance = settings_.tolerance*result.largestDisplacement;
 
     {

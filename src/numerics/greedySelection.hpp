@@ -117,8 +117,8 @@ public:
     // for their values g: then what is selected stays so, and points are added
     // only where the error exceeds the tolerance.
     //
-    // Throws std::invalid_argument where the candidates cannot carry the
-    // polynomial asked for, std::runtime_error where memory does not suffice;
+    // Throws std::invalid_argument where a value is not finite or the candidates
+    // cannot carry the polynomial asked for, std::runtime_error where memory does not suffice;
     // on all ranks alike.
     //
     // An observer, if there is one, has to be there on all ranks.
@@ -134,6 +134,10 @@ public:
 
     // |C^T s - g| of this rank's candidates after the last selection [m]
     const std::vector<double>& errors() const { return errors_.norms; }
+
+    // C (g - C^T s) of this rank's candidates, which must be those of the last
+    // selection: n x 3 [m]
+    Vectors residuals(const ControlPoints& candidates) const;
 
     // Indices of this rank's candidates that are selected
     std::vector<Index> selected() const;

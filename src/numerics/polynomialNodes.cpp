@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace morph
 {
@@ -74,7 +75,15 @@ std::vector<Listed> polynomialNodes
         throw std::invalid_argument
         (
             "a linear polynomial needs moving or fixed control points, "
-            "but all of them slide"
+            "but there are none"
+        );
+    }
+    if (kernel.order() > 1 && most < 4)
+    {
+        throw std::invalid_argument
+        (
+            "thinPlate needs at least four points, but no more than "
+          + std::to_string(most) + " are allowed"
         );
     }
     if (kernel.order() > 1)

@@ -6,6 +6,7 @@
 #define morph_radialFunctions_hpp
 
 #include "kernel.hpp"
+#include "vectorMath.hpp"
 
 #include <cmath>
 #include <limits>
@@ -68,7 +69,7 @@ struct WendlandC6
 
 struct Gaussian
 {
-    static double value(double d2) { return std::exp(-d2); }
+    static double value(double d2) { return vectorMath::exponential(-d2); }
 };
 
 struct InverseMultiQuadric
@@ -87,7 +88,7 @@ struct ThinPlate
     {
         // d^2 log(d) = d^2 log(d^2)/2, and zero at the centre
         const double least = std::numeric_limits<double>::min();
-        return 0.5*d2*std::log(d2 > least ? d2 : least);
+        return 0.5*d2*vectorMath::logarithm(d2 > least ? d2 : least);
     }
 };
 

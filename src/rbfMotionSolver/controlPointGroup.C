@@ -22,9 +22,13 @@ License
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "wedgePolyPatch.H"
+#include "fixedNormalSlipPointPatchField.H"
 #include "fixedValuePointPatchFields.H"
 #include "pointFields.H"
 #include "FlatOutput.H"
+#include "StringStream.H"
+
+#include <cmath>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -45,6 +49,27 @@ Foam::controlPointGroup::surfaceNames
 });
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Numbers that can be squared; told without arithmetic, which others trap
+static bool reasonable(const vector& d)
+{
+    for (const scalar component : d)
+    {
+        if (!std::isfinite(component) || mag(component) > 1e-3*GREAT)
+        {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::controlPointGroup::controlPointGroup
@@ -57,8 +82,9 @@ Foam::controlPointGroup::controlPointGroup
     dict_(dict),
     mesh_(mesh),
     name_(name),
-    part_(partNames.get("type", dict)),
+    part_(dictionaryChecks::getChoice(dict, "type", partNames)),
     surface_(surfaceType::found),
+    normal_(Zero),
     displacement_(nullptr)
 {
     dictionaryChecks::onlyKeys
@@ -119,6 +145,7 @@ Foam::controlPointGroup::controlPointGroup
     name_(mesh.boundaryMesh()[patchi].name()),
     part_(p),
     surface_(surfaceType::found),
+    normal_(Zero),
     patches_(1, patchi),
     displacement_(nullptr)
 {
@@ -128,6 +155,10 @@ Foam::controlPointGroup::controlPointGroup
         field.add("type", "pointDisplacement");
         displacement_ =
             prescribedDisplacement::New(field, mesh, patches_, 0);
+    }
+    else if (p == part::sliding)
+    {
+        readNormal();
     }
 }
 
@@ -183,11 +214,30 @@ void Foam::controlPointGroup::selectPatches()
 }
 
 
+void Foam::controlPointGroup::readNormal()
+{
+    const auto& field =
+        mesh_.lookupObject<pointVectorField>("pointDisplacement");
+    const pointPatchVectorField& condition =
+        field.boundaryField()[patches_[0]];
+
+    if (isA<fixedNormalSlipPointPatchField<vector>>(condition))
+    {
+        // It tells its normal to nobody but the file that it is written to
+        OStringStream written;
+        condition.write(written);
+        IStringStream entries(written.str());
+        const vector n(dictionary(entries).get<vector>("n"));
+        normal_ = n/max(mag(n), VSMALL);
+    }
+}
+
+
 void Foam::controlPointGroup::checkSurface()
 {
     if (dict_.found("surface"))
     {
-        surface_ = surfaceNames.get("surface", dict_);
+        surface_ = dictionaryChecks::getChoice(dict_, "surface", surfaceNames);
         if (!slides())
         {
             FatalIOErrorInFunction(dict_)
@@ -267,10 +317,13 @@ bool Foam::controlPointGroup::moves() const
         );
         some =
             some
-         || condition.type() != fixedValuePointPatchField<vector>::typeName
-         || gMax(mag(condition)) > 0;
+         || condition.type() != fixedValuePointPatchField<vector>::typeName;
+        for (const vector& d : condition)
+        {
+            some = some || d != vector(Zero);
+        }
     }
-    return some;
+    return returnReduce(some, orOp<bool>());
 }
 
 
@@ -335,11 +388,28 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
     const prescribedDisplacement::points& p
 ) const
 {
-    if (displacement_.valid())
+    if (!displacement_.valid())
     {
-        return displacement_->displacement(p);
+        return tmp<vectorField>::New(p.positions.size(), Zero);
     }
-    return tmp<vectorField>::New(p.positions.size(), Zero);
+
+    tmp<vectorField> td(displacement_->displacement(p));
+    const vectorField& d = td();
+    OStringStream message;
+    for (label i = 0; i < d.size() && message.str().empty(); ++i)
+    {
+        if (!reasonable(d[i]))
+        {
+            message
+                << "Group '" << name_ << "': the prescribed displacement at "
+                << p.positions[i] << " is no finite number of metres: " << d[i]
+                << nl << "    Correct "
+                << (fromField() ? "pointDisplacement" : "'displacement'")
+                << " of this group";
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
+    return td;
 }
 
 

@@ -113,24 +113,33 @@ void Foam::rbfControlPoints::assign()
 
 void Foam::rbfControlPoints::assignListed(labelList& group, labelList& listed)
 {
-    DynamicList<point> positions;
+    DynamicList<point> all;
     DynamicList<label> groupOf, placeOf;
     forAll(groups_, groupi)
     {
         const pointField& x = groups_[groupi].listed();
         forAll(x, i)
         {
-            positions.append(plane_.position(x[i]));
+            all.append(plane_.position(x[i]));
             groupOf.append(groupi);
             placeOf.append(i);
         }
     }
-    if (positions.empty())
+    if (all.empty())
     {
         return;
     }
 
-    const positionTable table((pointField(positions)));
+    const boolList first
+    (
+        firstAtPosition(pointField(all), groupOf, placeOf)
+    );
+    inplaceSubset(first, all);
+    inplaceSubset(first, groupOf);
+    inplaceSubset(first, placeOf);
+
+    const pointField positions(all);
+    const positionTable table(positions);
     const scalar tolerance = samePlace*boundBox(points0_, true).mag();
     boolList onMesh(positions.size(), false);
     forAll(points0_, pointi)
@@ -163,10 +172,94 @@ void Foam::rbfControlPoints::assignListed(labelList& group, labelList& listed)
 }
 
 
+Foam::boolList Foam::rbfControlPoints::firstAtPosition
+(
+    const pointField& positions,
+    const labelList& groupOf,
+    const labelList& placeOf
+)
+{
+    labelList order(identity(positions.size()));
+    std::sort
+    (
+        order.begin(),
+        order.end(),
+        [&](const label a, const label b)
+        {
+            const point& x = positions[a];
+            const point& y = positions[b];
+            return
+                x != y
+              ? std::lexicographical_compare
+                (
+                    x.cdata(), x.cdata() + 3, y.cdata(), y.cdata() + 3
+                )
+              : a < b;
+        }
+    );
+
+    twins_.setSize(groups_.size());
+    boolList first(positions.size(), true);
+    label former = -1;
+    for (const label i : order)
+    {
+        if (former < 0 || positions[i] != positions[former])
+        {
+            former = i;
+            continue;
+        }
+
+        // Listed in the order of the groups: the former is of the earlier one
+        first[i] = false;
+        if (groupOf[i] == groupOf[former])
+        {
+            twins_[groupOf[i]].append(placeOf[former]);
+            twins_[groupOf[i]].append(placeOf[i]);
+        }
+    }
+    return first;
+}
+
+
+void Foam::rbfControlPoints::checkTwins() const
+{
+    forAll(twins_, groupi)
+    {
+        const labelList places(twins_[groupi]);
+        if (places.empty())
+        {
+            continue;
+        }
+
+        // The same on every rank
+        const controlPointGroup& group = groups_[groupi];
+        const pointField x(group.listed(), places);
+        const labelList meshPoints(places.size(), -1);
+        const tmp<vectorField> td(group.displacement({x, meshPoints, places}));
+        const vectorField& d = td();
+        for (label i = 0; i < d.size(); i += 2)
+        {
+            const vector a = plane_.reduce(x[i], d[i]);
+            const vector b = plane_.reduce(x[i + 1], d[i + 1]);
+            if (mag(a - b) > 1e-8*max(mag(a), mag(b)))
+            {
+                FatalIOErrorInFunction(group.dict())
+                    << "Contradicting control points: group '" << group.name()
+                    << "' lists " << x[i] << " twice, with displacements "
+                    << d[i] << " and " << d[i + 1] << nl
+                    << "    Give coincident points one displacement, or remove"
+                    << " all but one of them" << nl << exit(FatalIOError);
+            }
+        }
+    }
+}
+
+
 void Foam::rbfControlPoints::own()
 {
     // The master of points that ranks share tells the others that they are
-    // slaves. Points coupled by a cyclic are different points
+    // slaves. Points coupled by a cyclic are different points, of which one
+    // copy each is no slave: those with one transformation are the same point
     const globalMeshData& global = mesh_.globalData();
     const labelList& coupled = global.coupledPatch().meshPoints();
     const labelListList& slaves = global.globalPointSlaves();
@@ -178,6 +271,24 @@ void Foam::rbfControlPoints::own()
         for (const label slot : these)
         {
             isSlave[slot] = 1;
+        }
+    }
+    for (const labelList& these : global.globalPointTransformedSlaves())
+    {
+        labelHashSet known;
+        for (const label slot : these)
+        {
+            // The last transformation whose slots start before this one
+            label transformi = map.transformStart().size() - 1;
+            while (map.transformStart()[transformi] > slot)
+            {
+                --transformi;
+            }
+            if (!known.insert(transformi))
+            {
+                const label start = map.transformStart()[transformi];
+                isSlave[map.transformElements()[transformi][slot - start]] = 1;
+            }
         }
     }
     map.reverseDistribute(coupled.size(), isSlave, false);
@@ -300,11 +411,14 @@ Foam::vectorField Foam::rbfControlPoints::targetAreas
         }
     }
 
+    const bool given = magSqr(group.normal()) > 0;
     vectorField areas(faces.size());
     forAll(faces, i)
     {
         const face& f = mesh_.faces()[faces[i]];
-        areas[i] = plane_.reduce(f.centre(points0_), f.areaNormal(target));
+        const vector area =
+            given ? group.normal()*f.mag(points0_) : f.areaNormal(target);
+        areas[i] = plane_.reduce(f.centre(points0_), area);
     }
     return areas;
 }
@@ -483,6 +597,7 @@ bool Foam::rbfControlPoints::update()
         (returnReduce(first, andOp<bool>()) || surfacesMove)
      && updateNormals();
 
+    checkTwins();
     const vectorField d(displacements());
     conditions_.setSize(controlled_.size());
     forAll(controlled_, i)

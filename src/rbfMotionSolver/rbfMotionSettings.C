@@ -72,7 +72,7 @@ static Type readNamed
 
     FatalIOErrorInFunction(dict)
         << "Entry '" << key << "': there is no " << key << " '" << name << "'"
-        << nl << "    Valid choices: " << flatOutput(names) << nl
+        << nl << "    Valid " << key << "s: " << flatOutput(names) << nl
         << exit(FatalIOError);
     return deflt;
 }
@@ -84,10 +84,11 @@ static morph::Polynomial readPolynomial
     const morph::Kernel& kernel
 )
 {
-    const morph::Polynomial p = polynomialNames.getOrDefault
+    const morph::Polynomial p = dictionaryChecks::getChoice
     (
-        "polynomial",
         dict,
+        "polynomial",
+        polynomialNames,
         kernel.order() > 0 ? morph::Polynomial::linear : morph::Polynomial::none
     );
     if (kernel.order() > 0 && p == morph::Polynomial::none)
@@ -226,6 +227,8 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
       : 4;
 
     settings.selection = readSelection(dict);
+    settings.surfaceCorrection =
+        dict.getOrDefault<bool>("surfaceCorrection", false);
 
     const scalar degrees =
         dict.found("featureAngle")
@@ -240,9 +243,9 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     }
     settings.featureAngle = degToRad(degrees);
 
-    settings.onInvalidMesh = invalidMeshNames.getOrDefault
+    settings.onInvalidMesh = dictionaryChecks::getChoice
     (
-        "onInvalidMesh", dict, invalidMesh::error
+        dict, "onInvalidMesh", invalidMeshNames, invalidMesh::error
     );
     return settings;
 }

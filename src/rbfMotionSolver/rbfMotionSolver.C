@@ -19,8 +19,6 @@ License
 
 #include "rbfMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
-#include "basicSymmetryPointPatchField.H"
-#include "calculatedPointPatchField.H"
 #include "clockTime.H"
 #include "cyclicPolyPatch.H"
 #include "dictionaryChecks.H"
@@ -28,13 +26,13 @@ License
 #include "foamCompat.H"
 #include "invalidMotion.H"
 #include "localIOdictionary.H"
-#include "movedGeometry.H"
 #include "pointFields.H"
+#include "processorCyclicPolyPatch.H"
 #include "pstreamCommunicator.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
 #include "syncTools.H"
-#include "zeroGradientPointPatchField.H"
+
+#include <limits>
+#include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -63,6 +61,11 @@ namespace Foam
 namespace Foam
 {
 
+// Largest radius of the surface correction, in support radii: about the
+// distance of selected points, over which what they leave varies
+static const scalar correctionReach = 0.1;
+
+
 static IOobject pointDisplacementIO(const polyMesh& mesh)
 {
     return IOobject
@@ -74,12 +77,6 @@ static IOobject pointDisplacementIO(const polyMesh& mesh)
         IOobject::AUTO_WRITE,
         false
     );
-}
-
-
-static bool slidingCondition(const pointPatchVectorField& condition)
-{
-    return isA<basicSymmetryPointPatchField<vector>>(condition);
 }
 
 } // End namespace Foam
@@ -106,7 +103,8 @@ Foam::rbfMotionSolver::rbfMotionSolver
         pointIOField(points0IO(mesh)),
         typeName
     ),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
+    report_(mesh, settings_),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -124,7 +122,8 @@ Foam::rbfMotionSolver::rbfMotionSolver
 )
 :
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
-    settings_(rbfMotionSettings::read(coeffDict())),
+    settings_(rbfMotionSettings::read(checkedCoeffDict())),
+    report_(mesh, settings_),
     largestDisplacement_(0),
     supportRadius_(0)
 {
@@ -158,8 +157,10 @@ void Foam::rbfMotionSolver::readPointDisplacement()
 }
 
 
-void Foam::rbfMotionSolver::initialise()
+const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
+    // Without a dictionary of coefficients this is dynamicMeshDict itself,
+    // with keys of others
     if (found(typeName + "Coeffs"))
     {
         dictionaryChecks::onlyKeys
@@ -167,11 +168,47 @@ void Foam::rbfMotionSolver::initialise()
             coeffDict(),
             {
                 "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
-                "controlPoints", "greedy", "selection", "featureAngle",
-                "onInvalidMesh"
+                "controlPoints", "greedy", "selection", "surfaceCorrection",
+                "featureAngle", "onInvalidMesh"
             }
         );
     }
+    return coeffDict();
+}
+
+
+void Foam::rbfMotionSolver::readProperties()
+{
+    if (settings_.supportRadius > 0)
+    {
+        return;
+    }
+    properties_.reset
+    (
+        new IOdictionary
+        (
+            IOobject
+            (
+                typeName + "Properties",
+                mesh().time().timeName(),
+                "uniform",
+                mesh(),
+                IOobject::READ_IF_PRESENT,
+                IOobject::AUTO_WRITE
+            )
+        )
+    );
+    string digits;
+    if (properties_->readIfPresent("largestDisplacement", digits))
+    {
+        readScalar(digits, largestDisplacement_);
+    }
+}
+
+
+void Foam::rbfMotionSolver::initialise()
+{
+    readProperties();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
@@ -180,152 +217,16 @@ void Foam::rbfMotionSolver::initialise()
             << "    Remove them; what should stay is a group of type fixed"
             << nl << exit(FatalIOError);
     }
-
     makeGroups();
 }
 
 
 void Foam::rbfMotionSolver::makeGroups()
 {
-    groups_.clear();
-    const dictionary* dict = coeffDict().findDict("controlPoints");
-    if (dict)
-    {
-        groupsFromDictionary(*dict);
-        addSymmetryGroups();
-    }
-    else if (coeffDict().found("controlPoints"))
-    {
-        FatalIOErrorInFunction(coeffDict())
-            << "Entry 'controlPoints' has to be a dictionary of groups" << nl
-            << exit(FatalIOError);
-    }
-    else
-    {
-        groupsFromField();
-    }
-    checkThatSomethingMoves();
-}
-
-
-void Foam::rbfMotionSolver::groupsFromDictionary(const dictionary& dict)
-{
-    for (const entry& e : dict)
-    {
-        if (!e.isDict())
-        {
-            FatalIOErrorInFunction(dict)
-                << "Entry '" << e.keyword() << "' is no group of control points"
-                << nl << "    A group is a dictionary: " << e.keyword()
-                << " { type ...; patches (...); }" << nl
-                << exit(FatalIOError);
-        }
-        groups_.append(new controlPointGroup(e.keyword(), e.dict(), mesh()));
-    }
-}
-
-
-void Foam::rbfMotionSolver::groupsFromField()
-{
-    checkConditions();
-
-    // Where patches meet the last one wins, as it does when OpenFOAM evaluates
-    // the boundary conditions one after the other
-    typedef controlPointGroup::part part;
-    for (const part p : {part::moving, part::sliding})
-    {
-        forAllReverse(pointDisplacement_.boundaryField(), patchi)
-        {
-            const pointPatchVectorField& condition =
-                pointDisplacement_.boundaryField()[patchi];
-            const bool slides = slidingCondition(condition);
-            if
-            (
-                p == part::sliding
-              ? slides
-              : !slides && condition.fixesValue()
-            )
-            {
-                groups_.append(new controlPointGroup(mesh(), patchi, p));
-            }
-        }
-    }
-}
-
-
-void Foam::rbfMotionSolver::checkConditions() const
-{
-    for (const pointPatchVectorField& condition
-        : pointDisplacement_.boundaryField())
-    {
-        const polyPatch& patch =
-            mesh().boundaryMesh()[condition.patch().index()];
-        if
-        (
-            !condition.fixesValue()
-         && !slidingCondition(condition)
-         && !polyPatch::constraintType(patch.type())
-         && !isA<zeroGradientPointPatchField<vector>>(condition)
-         && !isA<calculatedPointPatchField<vector>>(condition)
-        )
-        {
-            FatalIOErrorInFunction(*this)
-                << "The pointDisplacement condition of patch '"
-                << patch.name() << "' has type '" << condition.type()
-                << "', which has no part in " << typeName << nl
-                << "    Conditions that fix the value move points,"
-                << " slip and symmetry let them slide," << nl
-                << "    zeroGradient and calculated leave them free." << nl
-                << "    Use one of them, or say in 'controlPoints' which"
-                << " patches move, slide or are fixed" << nl
-                << exit(FatalIOError);
-        }
-    }
-}
-
-
-void Foam::rbfMotionSolver::addSymmetryGroups()
-{
-    labelHashSet selected;
-    for (const controlPointGroup& group : groups_)
-    {
-        selected.insert(group.patches());
-    }
-    forAll(mesh().boundaryMesh(), patchi)
-    {
-        const polyPatch& patch = mesh().boundaryMesh()[patchi];
-        const bool symmetric =
-            isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch);
-        if (symmetric && !selected.found(patchi))
-        {
-            groups_.append
-            (
-                new controlPointGroup
-                (
-                    mesh(), patchi, controlPointGroup::part::sliding
-                )
-            );
-        }
-    }
-}
-
-
-void Foam::rbfMotionSolver::checkThatSomethingMoves() const
-{
-    for (const controlPointGroup& group : groups_)
-    {
-        if (group.moves())
-        {
-            return;
-        }
-    }
-
-    FatalIOErrorInFunction(*this)
-        << "Nothing moves the mesh, and nothing ever could" << nl
-        << "    Give a patch a moving condition in "
-        << pointDisplacement_.objectPath() << nl
-        << "    or " << typeName << "Coeffs a group of 'controlPoints' of"
-        << " type moving" << nl << exit(FatalIOError);
+    groups_.reset
+    (
+        new controlPointGroups(mesh(), coeffDict(), pointDisplacement_)
+    );
 }
 
 
@@ -339,7 +240,7 @@ void Foam::rbfMotionSolver::makeGeometry()
             mesh(),
             coeffDict(),
             points0(),
-            groups_,
+            groups_(),
             plane_(),
             settings_.featureAngle
         )
@@ -357,6 +258,10 @@ void Foam::rbfMotionSolver::makeGeometry()
     }
     evaluated_.transfer(labels);
     cloud_.reset(new morph::PointCloud(asVectors(positions)));
+    if (settings_.surfaceCorrection)
+    {
+        positions_.transfer(positions);
+    }
 }
 
 
@@ -369,6 +274,15 @@ bool Foam::rbfMotionSolver::updateSupportRadius()
     }
     largestDisplacement_ =
         max(largestDisplacement_, returnReduce(largest, maxOp<scalar>()));
+
+    if (properties_.valid())
+    {
+        // A string, since numbers are written with writePrecision digits
+        std::ostringstream digits;
+        digits.precision(std::numeric_limits<scalar>::max_digits10);
+        digits << largestDisplacement_;
+        properties_->set("largestDisplacement", string(digits.str()));
+    }
 
     const scalar former = supportRadius_;
     supportRadius_ =
@@ -388,6 +302,10 @@ void Foam::rbfMotionSolver::select()
     {
         if (newSystem)
         {
+            exactSurface_.reset
+            (
+                new morph::ExactSurface(correctionReach*supportRadius_)
+            );
             selection_.reset
             (
                 new morph::GreedySelection
@@ -411,140 +329,41 @@ void Foam::rbfMotionSolver::select()
 
     if (newSystem || result.added > 0)
     {
-        report(result);
-        warn(result);
-        warnOfFirstCells(result);
+        report_.summary(result);
+        report_.warnOfTolerance(result, supportRadius_);
+        if (!settings_.surfaceCorrection)
+        {
+            report_.warnOfFirstCells
+            (
+                points0(),
+                controlPoints_->candidatePoints(),
+                selection_->errors(),
+                result.largestDisplacement
+            );
+        }
     }
     if (debug)
     {
-        Info<< type() << ": sweep " << result.sweepTime << " s, list "
-            << result.listTime << " s, solve " << result.solveTime << " s, "
-            << result.sweeps << " sweeps, " << communicator.operations()
-            << " collectives, " << communicator.bytes() << " B" << endl;
-    }
-}
-
-
-void Foam::rbfMotionSolver::report(const morph::SelectionResult& result) const
-{
-    Info<< type() << ": selected " << label(result.selected) << " of "
-        << label(result.candidates) << " control points, largest error "
-        << result.largestError << " (tolerance " << result.tolerance
-        << "), selection "
-        << result.sweepTime + result.listTime + result.solveTime << " s"
-        << endl;
-}
-
-
-void Foam::rbfMotionSolver::warn(const morph::SelectionResult& result)
-{
-    if (!result.converged() && !settings_.selection.all)
-    {
-        WarningInFunction
-            << "The largest error, " << result.largestError
-            << " m, exceeds the tolerance of " << result.tolerance << " m: ";
-        if (result.rejected > 0)
-        {
-            Info<< label(result.rejected) << " control points are too close"
-                << " to others for a support radius of " << supportRadius_
-                << " m" << nl << "    Reduce the support radius" << endl;
-        }
-        else
-        {
-            Info<< "greedy/maxPoints is reached" << nl
-                << "    Raise it, or the tolerance" << endl;
-        }
-    }
-    if (result.roundOff > 0.1*result.tolerance)
-    {
-        WarningInFunction
-            << "Round-off of about " << result.roundOff << " m is not small"
-            << " against the tolerance of " << result.tolerance << " m" << nl
-            << "    Reduce the support radius (" << supportRadius_
-            << " m), or raise greedy/tolerance" << endl;
-    }
-}
-
-
-const Foam::scalarField& Foam::rbfMotionSolver::firstCellHeight()
-{
-    if (firstCellHeight_.empty())
-    {
-        const movedGeometry geometry(mesh(), points0());
-        firstCellHeight_.setSize(mesh().nPoints(), GREAT);
-        for (const polyPatch& patch : mesh().boundaryMesh())
-        {
-            forAll(patch, i)
-            {
-                const scalar height =
-                    geometry.cellVolumes()[patch.faceCells()[i]]
-                   /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
-                for (const label pointi : patch[i])
-                {
-                    scalar& least = firstCellHeight_[pointi];
-                    least = min(least, height);
-                }
-            }
-        }
-    }
-    return firstCellHeight_;
-}
-
-
-void Foam::rbfMotionSolver::warnOfFirstCells
-(
-    const morph::SelectionResult& result
-)
-{
-    Map<scalar> error;
-    forAll(controlPoints_->candidatePoints(), i)
-    {
-        error.insert
-        (
-            controlPoints_->candidatePoints()[i], selection_->errors()[i]
-        );
-    }
-
-    scalar worst = 0;
-    word worstPatch;
-    for (label patchi = 0; patchi < mesh().boundaryMesh().nNonProcessor(); ++patchi)
-    {
-        const polyPatch& patch = mesh().boundaryMesh()[patchi];
-        scalar ratio = 0;
-        if (!polyPatch::constraintType(patch.type()))
-        {
-            for (const label pointi : patch.meshPoints())
-            {
-                const auto found = error.cfind(pointi);
-                if (found.found())
-                {
-                    ratio = max(ratio, found.val()/firstCellHeight()[pointi]);
-                }
-            }
-        }
-        reduce(ratio, maxOp<scalar>());
-        if (ratio > worst)
-        {
-            worst = ratio;
-            worstPatch = patch.name();
-        }
-    }
-
-    if (worst > 0.1)
-    {
-        WarningInFunction
-            << "At patch '" << worstPatch << "' the motion around the control"
-            << " points is off by " << worst << " heights of the first cell"
-            << nl << "    The patch itself moves exactly, the cells at it"
-            << " would with greedy/tolerance "
-            << settings_.selection.tolerance*0.1/worst << endl;
+        report_.debugInfo(result, communicator);
     }
 }
 
 
 Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
 {
-    const morph::Vectors s = selection_->interpolant()(*cloud_);
+    morph::Vectors s = selection_->interpolant()(*cloud_);
+    if (settings_.surfaceCorrection)
+    {
+        pstreamCommunicator communicator;
+        exactSurface_->add
+        (
+            controlPoints_->candidates(),
+            selection_->residuals(controlPoints_->candidates()),
+            communicator,
+            asVectors(positions_),
+            s
+        );
+    }
     vectorField inPlane(mesh().nPoints(), Zero);
     forAll(evaluated_, i)
     {
@@ -572,7 +391,7 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     bool some = false;
     for (const polyPatch& patch : mesh().boundaryMesh())
     {
-        if (isA<cyclicPolyPatch>(patch))
+        if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
         {
             some = true;
             UIndirectList<bool>(isCyclic, patch.meshPoints()) = true;
@@ -584,21 +403,18 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
     }
     syncTools::syncPointList(mesh(), isCyclic, orEqOp<bool>(), false);
 
-    vectorField sum(displacement);
-    scalarField copies(mesh().nPoints(), 1);
-    syncTools::syncPointList
-    (
-        mesh(), sum, plusEqOp<vector>(), vector(Zero)
-    );
-    syncTools::syncPointList
-    (
-        mesh(), copies, plusEqOp<scalar>(), scalar(0)
-    );
+    // Mean of both sides as half of smallest plus largest: ranks that share a
+    // point leave no trace in it
+    const vector none = vector::uniform(GREAT);
+    vectorField smallest(displacement);
+    vectorField largest(displacement);
+    syncTools::syncPointList(mesh(), smallest, minEqOp<vector>(), none);
+    syncTools::syncPointList(mesh(), largest, maxEqOp<vector>(), -none);
     forAll(displacement, pointi)
     {
         if (isCyclic[pointi])
         {
-            displacement[pointi] = sum[pointi]/copies[pointi];
+            displacement[pointi] = 0.5*(smallest[pointi] + largest[pointi]);
         }
     }
 }
@@ -638,12 +454,7 @@ void Foam::rbfMotionSolver::solve()
         makeGeometry();
     }
 
-    bool fromField = false;
-    for (const controlPointGroup& group : groups_)
-    {
-        fromField = fromField || group.fromField();
-    }
-    if (fromField)
+    if (groups_->fromField())
     {
         pointDisplacement_.boundaryFieldRef().updateCoeffs();
         pointDisplacement_.correctBoundaryConditions();
@@ -685,7 +496,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     cloud_.reset();
     controlPoints_.clear();
     plane_.clear();
-    firstCellHeight_.clear();
+    report_.clear();
     makeGroups();
 }
 

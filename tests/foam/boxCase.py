@@ -20,7 +20,7 @@ SIDES = {"xMin": "0 4 7 3", "xMax": "1 2 6 5", "yMin": "0 1 5 4",
 MESH = """
 scale 1;
 vertices ( {vertices} );
-blocks ( hex (0 1 2 3 4 5 6 7) box ({cells}) simpleGrading ({grading}) );
+blocks ( hex ({block}) box ({cells}) simpleGrading ({grading}) );
 edges ();
 defaultPatch {{ name defaultFaces; type patch; }}
 boundary ( {boundary} );
@@ -70,8 +70,11 @@ def vectors(rows):
 
 
 def block_mesh(patches, cells=(4, 4, 4), low=(0, 0, 0), high=(1, 1, 1),
-               grading=(1, 1, 1), corners=None):
+               grading=(1, 1, 1), corners=None, axis=False):
     """The blockMeshDict of a box.
+
+    corners: in place of low and high, in the order of hex.
+    axis: its edges at yMin coincide, as at the axis of a wedge.
 
     patches: name -> (type and other entries, names of sides). A patch without
     names of sides is the side of that name.
@@ -80,14 +83,18 @@ def block_mesh(patches, cells=(4, 4, 4), low=(0, 0, 0), high=(1, 1, 1),
         (x0, y0, z0), (x1, y1, z1) = low, high
         corners = [(x, y, z) for z in (z0, z1)
                    for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
+    label = {"4": "0", "5": "1"} if axis else {}
     boundary = ""
     for name, given in patches.items():
         kind, sides = given if isinstance(given, tuple) else (given, name)
-        faces = " ".join(f"({SIDES[side]})" for side in sides.split())
+        faces = " ".join(
+            f"({' '.join(label.get(v, v) for v in SIDES[side].split())})"
+            for side in sides.split())
         kind = kind if ";" in kind else f"{kind};"
         boundary += f"{name} {{ type {kind} faces ({faces}); }}\n"
     return MESH.format(
         vertices=vectors(corners)[1:-1], boundary=boundary,
+        block=" ".join(label.get(v, v) for v in "01234567"),
         cells="{} {} {}".format(*cells), grading=words(grading))
 
 
@@ -98,13 +105,17 @@ def write_control(case, end=1, deltaT=1, format="ascii", digits=17,
         startFrom=startFrom, writeInterval=writeInterval))
 
 
-def box(path, patches, control=None, **mesh):
-    """A meshed box; control: arguments of write_control()."""
-    shutil.copytree(_meshed(block_mesh(patches, **mesh)), path,
-                    dirs_exist_ok=True)
+def from_block_mesh(path, block_mesh_dict, control=None):
+    """A meshed case; control: arguments of write_control()."""
+    shutil.copytree(_meshed(block_mesh_dict), path, dirs_exist_ok=True)
     case = FoamCase(path)
     write_control(case, **(control or {}))
     return case
+
+
+def box(path, patches, control=None, **mesh):
+    """A meshed box; control: arguments of write_control()."""
+    return from_block_mesh(path, block_mesh(patches, **mesh), control)
 
 
 def point_field(conditions, dimensions="0 1 0 0 0 0 0"):

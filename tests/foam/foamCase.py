@@ -87,6 +87,16 @@ class FoamCase:
                    "delta 0.001; }")
         self.run("decomposePar", *options)
 
+    def decompose_cells(self, ranks):
+        """Decompose so that each cell goes to the rank given for it."""
+        ranks = [int(rank) for rank in ranks]
+        self.write("system/decomposeParDict", "dictionary",
+                   f"numberOfSubdomains {max(ranks) + 1};\nmethod manual;\n"
+                   'manualCoeffs { dataFile "cellDecomposition"; }')
+        self.write("constant/cellDecomposition", "labelList",
+                   f"{len(ranks)}\n({' '.join(map(str, ranks))})")
+        self.run("decomposePar")
+
     def points(self, file):
         """The points of an ascii file of the case."""
         return read_vectors(self.path/file)

@@ -63,7 +63,8 @@ def points_at(case, time):
 
 def side(points, name):
     """Which points of a box at (0 0 0) (1 1 1) are on a side."""
-    return points[:, "xyz".index(name[0])] == (1 if "Max" in name else 0)
+    at = 1 if "Max" in name else 0
+    return np.abs(points[:, "xyz".index(name[0])] - at) < 1e-9
 
 
 def ulps(points):

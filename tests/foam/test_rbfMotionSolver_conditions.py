@@ -199,7 +199,7 @@ def test_a_condition_without_a_part_is_an_error_that_says_so(tmp_path, ranks):
     output = case.run("moveDynamicMesh", ranks=ranks, status=1)
     assert case.tree() == before
     for phrase in ("pointDisplacement", "'zMin'", "surfaceSlipDisplacement",
-                   "has no part in rbfMotionSolver", "controlPoints"):
+                   "has no part in the motion", "controlPoints"):
         assert phrase in output
 
 
@@ -231,3 +231,22 @@ def test_a_patch_far_from_the_origin_is_moved_exactly(tmp_path):
     top = before[:, 2] == shift + 1
     np.testing.assert_array_equal(move(case)[top],
                                   before[top] + (0, 0, 0.1))
+
+
+def test_fixedNormalSlip_keeps_points_in_the_plane_of_its_own_normal(tmp_path):
+    # On a slanted side, whose own normal is another. As in OpenFOAM, where
+    # the condition removes the part of the displacement along n
+    slanted = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0),
+               (0, 0, 1), (1.4, 0, 1), (1.4, 1, 1), (0, 1, 1)]
+    case = rbf_case(tmp_path, {**{name: "zeroGradient" for name in CUBE},
+                               "zMin": HELD, "zMax": fixed(0, 0, 0.2),
+                               "xMax": "fixedNormalSlip; n (2 0 0);"},
+                    corners=slanted)
+    before = reference(case)
+    after = move(case)
+    on = np.isclose(before[:, 0], 1 + 0.4*before[:, 2])
+    assert on.sum() == 25
+    np.testing.assert_allclose(after[on, 0], before[on, 0],
+                               rtol=0, atol=1e-12*SPAN)
+    middle = on & (before[:, 2] == 0.75)
+    assert (after[middle, 2] > before[middle, 2] + 0.01).all()

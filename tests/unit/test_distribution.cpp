@@ -93,7 +93,7 @@ std::vector<Outcome> outcomes
                 }
             }
 
-            IncrementalSelection selection(kernel, polynomial, settings);
+            GreedySelection selection(kernel, polynomial, settings);
             Outcome& outcome = all[communicator.rank()];
             ControlPoints points;
             for (const ControlPoints& candidates : displacements)
@@ -362,7 +362,7 @@ TEST(Distribution, everyRankRefusesWhatOneWouldRefuse)
             3,
             [&](Communicator& communicator)
             {
-                IncrementalSelection selection
+                GreedySelection selection
                 (
                     Kernel(KernelType::thinPlate, 1), Polynomial::linear,
                     settingsOf(1e-3)
@@ -407,7 +407,7 @@ TEST(Distribution, everyRankDoesTheSameCollectiveOperations)
                     mine.push_back(candidates[i]);
                 }
             }
-            IncrementalSelection selection
+            GreedySelection selection
             (
                 Kernel(KernelType::wendlandC2, 0.8), Polynomial::linear,
                 settingsOf(1e-2)

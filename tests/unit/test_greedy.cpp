@@ -80,7 +80,7 @@ SelectionSettings settingsOf(double tolerance, Index pointsPerSweep = 0)
 // A selection and its outcome on one rank
 struct Selected
 {
-    IncrementalSelection selection;
+    GreedySelection selection;
     SelectionResult result;
 
     Selected
@@ -351,6 +351,46 @@ TEST(Greedy, blocksSelectHardlyMorePointsInFarFewerSweeps)
             )   << tolerance;
             EXPECT_LT(2*blocks.result.sweeps, ones.result.sweeps) << tolerance;
         }
+    }
+}
+
+
+TEST(Greedy, oneBlockOnAListOfAllCandidatesIsTheStandardAlgorithm)
+{
+    // One candidate in each cell of the first list (0.4 radii wide), which so
+    // holds all of them: all that is selected is selected in one sweep
+    for (const bool sliding : {false, true})
+    {
+        Random random(76);
+        const double radius = 0.5;
+        ControlPoints candidates;
+        for (int i = 0; i < 150; ++i)
+        {
+            const Vector3 middle(i%6 + 0.5, i/6%5 + 0.5, i/30 + 0.5);
+            const Vector3 x = 0.4*radius*(middle + 0.3*random.inBox());
+            candidates.push_back
+            (
+                sliding && i%3 == 0
+              ? ControlPoint::sliding(x, {random.direction()}, wave(x))
+              : ControlPoint::prescribed(x, wave(x))
+            );
+        }
+        const double tolerance = 0.15;
+        const Selected found
+        (
+            Kernel(KernelType::wendlandC2, radius), Polynomial::none,
+            settingsOf(tolerance, 150), candidates
+        );
+        std::vector<Index> expected = reference::greedy
+        (
+            KernelType::wendlandC2, radius, candidates,
+            tolerance*largestDisplacement(candidates)
+        );
+        std::sort(expected.begin(), expected.end());
+        EXPECT_GT(expected.size(), 30u);
+        EXPECT_LT(expected.size(), 120u);
+        EXPECT_EQ(found.selection.selected(), expected);
+        EXPECT_EQ(found.result.sweeps, 2);
     }
 }
 
@@ -829,7 +869,7 @@ TEST(Greedy, refusesSettingsWithoutMeaning)
     {
         EXPECT_THROW
         (
-            IncrementalSelection(kernel, Polynomial::none, settings),
+            GreedySelection(kernel, Polynomial::none, settings),
             std::invalid_argument
         );
     }

@@ -1,5 +1,6 @@
 // Interpolation with a linear polynomial and its side conditions.
 
+#include "gramFactor.hpp"
 #include "test_support.hpp"
 
 #include <Eigen/Dense>
@@ -134,7 +135,7 @@ TEST(Polynomial, affineDisplacementsNeedNoPointsButTheNodes)
                 displaced(randomControlPoints(random, mixture), affine);
             SelectionSettings settings;
             settings.tolerance = 1e-10;
-            IncrementalSelection selection
+            GreedySelection selection
             (
                 Kernel(type, moderateRadius(type)), Polynomial::linear, settings
             );
@@ -323,7 +324,7 @@ TEST(Polynomial, thinPlateRefusesMovingPointsInAPlaneWithSlidingOnesOffIt)
                 p.position[dimension - 1] = 0.5;
             }
         }
-        IncrementalSelection selection
+        GreedySelection selection
         (
             Kernel(KernelType::thinPlate, 1), Polynomial::linear, takeAll()
         );
@@ -342,7 +343,7 @@ TEST(Polynomial, isRefusedWhereEveryPointSlides)
     const ControlPoints points = randomControlPoints(random, {3, 0, 20, 5});
     for (const KernelType type : allKernels())
     {
-        IncrementalSelection selection
+        GreedySelection selection
         (
             Kernel(type, 1), Polynomial::linear, takeAll()
         );
@@ -364,7 +365,7 @@ TEST(Polynomial, isNotOptionalForConditionallyDefiniteKernels)
         {
             EXPECT_THROW
             (
-                IncrementalSelection(kernel, Polynomial::none, takeAll()),
+                GreedySelection(kernel, Polynomial::none, takeAll()),
                 std::invalid_argument
             );
             EXPECT_THROW((GramFactor(kernel)), std::invalid_argument);

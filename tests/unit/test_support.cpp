@@ -280,7 +280,7 @@ RbfInterpolant throughAll
 {
     SelectionSettings settings;
     settings.all = true;
-    IncrementalSelection selection(kernel, polynomial, settings);
+    GreedySelection selection(kernel, polynomial, settings);
     SerialCommunicator alone;
     const SelectionResult result = selection.select(points, alone);
     EXPECT_EQ(result.selected, Index(points.size()));

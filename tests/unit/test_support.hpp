@@ -6,7 +6,7 @@
 
 #include "communicator.hpp"
 #include "controlPoints.hpp"
-#include "incrementalSelection.hpp"
+#include "greedySelection.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 

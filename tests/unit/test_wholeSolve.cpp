@@ -282,7 +282,7 @@ TEST(WholeSolve, noPointsAtAllGiveZeroEverywhere)
     {
         SelectionSettings settings;
         settings.all = all;
-        IncrementalSelection selection
+        GreedySelection selection
         (
             Kernel(KernelType::wendlandC2, 1), Polynomial::none, settings
         );

@@ -1,0 +1,228 @@
+#include "surfaceCorrection.hpp"
+
+#include "kernel.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace morph
+{
+
+namespace
+{
+
+// Radii shrink by 2^-60 at most: points closer than that are at one place
+constexpr int mostLevels = 60;
+
+} // namespace
+
+
+std::size_t SurfaceCorrection::Hash::operator()(const Cell& cell) const
+{
+    // Large primes, as is usual for spatial hashing
+    return
+        std::size_t(cell[0])*73856093u
+      ^ std::size_t(cell[1])*19349663u
+      ^ std::size_t(cell[2])*83492791u;
+}
+
+
+SurfaceCorrection::Cell SurfaceCorrection::cellOf
+(
+    const Vector3& x,
+    double size
+)
+{
+    Cell cell;
+    for (int a = 0; a < 3; ++a)
+    {
+        cell[a] = std::int64_t(std::floor(x[a]/size));
+    }
+    return cell;
+}
+
+
+template<class Action>
+void SurfaceCorrection::cellsAround
+(
+    const Grid& grid,
+    const Vector3& x,
+    double size,
+    const Action& action
+)
+{
+    const Cell middle = cellOf(x, size);
+    Cell cell;
+    for (cell[0] = middle[0] - 1; cell[0] <= middle[0] + 1; ++cell[0])
+    {
+        for (cell[1] = middle[1] - 1; cell[1] <= middle[1] + 1; ++cell[1])
+        {
+            for (cell[2] = middle[2] - 1; cell[2] <= middle[2] + 1; ++cell[2])
+            {
+                const auto found = grid.find(cell);
+                if (found != grid.end())
+                {
+                    action(found->second);
+                }
+            }
+        }
+    }
+}
+
+
+SurfaceCorrection::SurfaceCorrection(const Columns& centres, double radius)
+:
+    centres_(centres),
+    coefficients_(Vectors::Zero(centres.rows(), 3))
+{
+    if (!(radius > 0) || !std::isfinite(radius))
+    {
+        throw std::invalid_argument
+        (
+            "the radius of the surface correction must be positive"
+        );
+    }
+
+    std::vector<Index> left(centres.rows());
+    std::iota(left.begin(), left.end(), Index(0));
+    double h = radius;
+    for (int l = 0; !left.empty(); ++l, h *= 0.5)
+    {
+        if (l == mostLevels)
+        {
+            throw std::invalid_argument
+            (
+                "two points of the surface correction are at one place"
+            );
+        }
+        levels_.push_back(makeLevel(left, h));
+    }
+}
+
+
+SurfaceCorrection::Level SurfaceCorrection::makeLevel
+(
+    std::vector<Index>& left,
+    double radius
+) const
+{
+    Level level;
+    level.radius = radius;
+    for (Index i = 0; i < centres_.rows(); ++i)
+    {
+        level.all[cellOf(centres_.row(i), radius)];
+    }
+
+    // All that are placed so far
+    Grid placed;
+    for (const Level& earlier : levels_)
+    {
+        for (const Index i : earlier.members)
+        {
+            placed[cellOf(centres_.row(i), radius)].push_back(i);
+        }
+    }
+
+    std::vector<Index> rest;
+    for (const Index i : left)
+    {
+        const Vector3 x = centres_.row(i);
+        bool alone = true;
+        cellsAround
+        (
+            placed, x, radius,
+            [&](const std::vector<Index>& there)
+            {
+                for (const Index j : there)
+                {
+                    const Vector3 d = centres_.row(j).transpose() - x;
+                    alone = alone && d.norm() >= radius;
+                }
+            }
+        );
+        if (alone)
+        {
+            const Cell cell = cellOf(x, radius);
+            level.members.push_back(i);
+            level.grid[cell].push_back(i);
+            placed[cell].push_back(i);
+        }
+        else
+        {
+            rest.push_back(i);
+        }
+    }
+    left = rest;
+    return level;
+}
+
+
+Vector3 SurfaceCorrection::at(const Level& level, const Vector3& x) const
+{
+    const Kernel kernel(KernelType::wendlandC2, level.radius);
+    Vector3 sum = Vector3::Zero();
+    cellsAround
+    (
+        level.grid, x, level.radius,
+        [&](const std::vector<Index>& there)
+        {
+            for (const Index j : there)
+            {
+                const Vector3 d = centres_.row(j).transpose() - x;
+                sum += kernel(d.norm())*coefficients_.row(j).transpose();
+            }
+        }
+    );
+    return sum;
+}
+
+
+void SurfaceCorrection::set(const Vectors& residuals)
+{
+    Vectors open = residuals;
+    for (std::size_t l = 0; l < levels_.size(); ++l)
+    {
+        for (const Index i : levels_[l].members)
+        {
+            coefficients_.row(i) = open.row(i);
+        }
+        for (std::size_t later = l + 1; later < levels_.size(); ++later)
+        {
+            for (const Index i : levels_[later].members)
+            {
+                open.row(i) -= at(levels_[l], centres_.row(i)).transpose();
+            }
+        }
+    }
+}
+
+
+void SurfaceCorrection::add(const Vectors& points, Vectors& displacements) const
+{
+    std::vector<Index> near(points.rows());
+    std::iota(near.begin(), near.end(), Index(0));
+    for (const Level& level : levels_)
+    {
+        // Out of reach of all centres at this level is so at all later ones
+        std::vector<Index> still;
+        for (const Index i : near)
+        {
+            const Vector3 x = points.row(i);
+            bool reached = false;
+            cellsAround
+            (
+                level.all, x, level.radius,
+                [&](const std::vector<Index>&) { reached = true; }
+            );
+            if (reached)
+            {
+                displacements.row(i) += at(level, x).transpose();
+                still.push_back(i);
+            }
+        }
+        near.swap(still);
+    }
+}
+
+} // namespace morph

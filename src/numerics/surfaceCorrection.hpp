@@ -1,0 +1,86 @@
+// The last of the error at control points that were not selected.
+
+#ifndef morph_surfaceCorrection_hpp
+#define morph_surfaceCorrection_hpp
+
+#include "arrays.hpp"
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace morph
+{
+
+// A hierarchy of radii h_l = h_0/2^l. Each level has the points that are at
+// least h_l away from all others of this and of earlier levels, so that with a
+// kernel of support h_l they do not feel each other: the system is diagonal,
+// the coefficients are what the earlier levels leave of the residuals, and what
+// was met stays met. The last level has the points that are left, and all
+// residuals are met to round-off. It changes the field within h_0 of the points
+// alone: what a greedy selection leaves at a wall, the cells at the wall follow.
+class SurfaceCorrection
+{
+public:
+
+    // centres: n x 3 [m], those of all ranks in one order, no two at one place;
+    // radius: h_0 [m]
+    SurfaceCorrection(const Columns& centres, double radius);
+
+    // What is to be added at the centres: n x 3 [m]
+    void set(const Vectors& residuals);
+
+    // Adds the correction at points to their displacements: m x 3 [m] each
+    void add(const Vectors& points, Vectors& displacements) const;
+
+    // Levels of the hierarchy
+    Index levels() const { return levels_.size(); }
+
+private:
+
+    using Cell = std::array<std::int64_t, 3>;
+
+    struct Hash
+    {
+        std::size_t operator()(const Cell& cell) const;
+    };
+
+    // Points by the cell, of the size of a radius, in which they are
+    using Grid = std::unordered_map<Cell, std::vector<Index>, Hash>;
+
+    struct Level
+    {
+        double radius;
+        std::vector<Index> members;
+        Grid grid;
+
+        // The cells of all centres, of whatever level; their lists are empty
+        Grid all;
+    };
+
+    static Cell cellOf(const Vector3& x, double size);
+
+    // Calls action(points) for each cell of the grid at x or next to it
+    template<class Action>
+    static void cellsAround
+    (
+        const Grid& grid,
+        const Vector3& x,
+        double size,
+        const Action& action
+    );
+
+    // Takes from the points that are left those that make up a level
+    Level makeLevel(std::vector<Index>& left, double radius) const;
+
+    Vector3 at(const Level& level, const Vector3& x) const;
+
+    Columns centres_;
+    std::vector<Level> levels_;
+    Vectors coefficients_;
+};
+
+} // namespace morph
+
+#endif

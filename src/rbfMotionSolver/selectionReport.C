@@ -1,0 +1,199 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "selectionReport.H"
+#include "movedGeometry.H"
+#include "syncTools.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::selectionReport::selectionReport
+(
+    const polyMesh& mesh,
+    const rbfMotionSettings& settings
+)
+:
+    mesh_(mesh),
+    settings_(settings)
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::selectionReport::findFirstCellHeight(const pointField& points0)
+{
+    const movedGeometry geometry(mesh_, points0);
+    firstCellHeight_.setSize(mesh_.boundaryMesh().nNonProcessor());
+    forAll(firstCellHeight_, patchi)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        scalarField& least = firstCellHeight_[patchi];
+        least.setSize(patch.nPoints(), GREAT);
+        forAll(patch, i)
+        {
+            const scalar height =
+                geometry.cellVolumes()[patch.faceCells()[i]]
+               /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
+            for (const label pointi : patch.localFaces()[i])
+            {
+                least[pointi] = min(least[pointi], height);
+            }
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::selectionReport::summary
+(
+    const morph::SelectionResult& result
+) const
+{
+    Info<< "rbfMotionSolver: selected " << label(result.selected)
+        << " of " << label(result.candidates) << " control points, largest error "
+        << result.largestError << " (tolerance " << result.tolerance
+        << "), selection "
+        << result.sweepTime + result.listTime + result.solveTime << " s"
+        << endl;
+}
+
+
+void Foam::selectionReport::warnOfTolerance
+(
+    const morph::SelectionResult& result,
+    const scalar supportRadius
+) const
+{
+    if (!result.converged() && !settings_.selection.all)
+    {
+        WarningInFunction
+            << "The largest error, " << result.largestError
+            << " m, exceeds the tolerance of " << result.tolerance << " m: ";
+        if (result.rejected > 0)
+        {
+            Info<< label(result.rejected) << " control points are too close"
+                << " to others for a support radius of " << supportRadius
+                << " m" << nl << "    Reduce the support radius" << endl;
+        }
+        else
+        {
+            Info<< "greedy/maxPoints is reached" << nl
+                << "    Raise it, or the tolerance" << endl;
+        }
+    }
+    if (result.roundOff > 0.1*result.tolerance)
+    {
+        WarningInFunction
+            << "Round-off of about " << result.roundOff << " m is not small"
+            << " against the tolerance of " << result.tolerance << " m" << nl
+            << "    Reduce the support radius (" << supportRadius
+            << " m), or raise greedy/tolerance" << endl;
+    }
+}
+
+
+void Foam::selectionReport::warnOfFirstCells
+(
+    const pointField& points0,
+    const labelList& meshPoints,
+    const std::vector<double>& errors,
+    const scalar largestDisplacement
+)
+{
+    // Negative where there is no control point. Of points that ranks share one
+    // of them has the candidate
+    scalarField error(mesh_.nPoints(), -1);
+    forAll(meshPoints, i)
+    {
+        if (meshPoints[i] >= 0)
+        {
+            error[meshPoints[i]] = errors[i];
+        }
+    }
+    syncTools::syncPointList(mesh_, error, maxEqOp<scalar>(), scalar(-1));
+    if (firstCellHeight_.empty())
+    {
+        findFirstCellHeight(points0);
+    }
+
+    scalar worst = 0;
+    word worstPatch;
+
+    // A tolerance this small would leave no error above a tenth of a height
+    scalar allowed = GREAT;
+    forAll(firstCellHeight_, patchi)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        if (polyPatch::constraintType(patch.type()))
+        {
+            continue;
+        }
+        scalar ratio = 0;
+        scalar height = GREAT;
+        forAll(patch.meshPoints(), i)
+        {
+            const scalar e = error[patch.meshPoints()[i]];
+            if (e >= 0)
+            {
+                ratio = max(ratio, e/firstCellHeight_[patchi][i]);
+                height = min(height, firstCellHeight_[patchi][i]);
+            }
+        }
+        reduce(ratio, maxOp<scalar>());
+        reduce(height, minOp<scalar>());
+        if (ratio > 0.1)
+        {
+            allowed = min(allowed, 0.1*height);
+        }
+        if (ratio > worst)
+        {
+            worst = ratio;
+            worstPatch = patch.name();
+        }
+    }
+
+    if (worst > 0.1)
+    {
+        WarningInFunction
+            << "At patch '" << worstPatch << "' the motion around the control"
+            << " points is off by " << worst << " heights of the first cell"
+            << nl << "    The patch itself moves exactly; the cells at it"
+            << " would with 'surfaceCorrection yes'," << nl
+            << "    or with greedy/tolerance "
+            << allowed/largestDisplacement << endl;
+    }
+}
+
+
+void Foam::selectionReport::debugInfo
+(
+    const morph::SelectionResult& result,
+    const morph::Communicator& communicator
+) const
+{
+    Info<< "rbfMotionSolver: sweep " << result.sweepTime << " s, list "
+        << result.listTime << " s, solve " << result.solveTime << " s, "
+        << label(result.sweeps) << " sweeps, "
+        << label(communicator.operations()) << " collectives, "
+        << communicator.bytes() << " B" << endl;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,162 @@
+"""The selection of control points: what it reports, warns of, and leaves out.
+
+Sources of truth: the contract (log line, warnings) and what a greedy selection
+is: no control point is off by more than the tolerance, which is a fraction of
+the largest prescribed displacement.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from boxCase import words
+from rbfCase import (SELECTED, groups, move, rbf_case, reference, selections,
+                     side)
+
+CELLS = (8, 8, 6)
+
+
+def wavy(path, settings, cells=CELLS, **rest):
+    """A box whose top bends, with other settings of the selection."""
+    case = rbf_case(path, coeffs="supportRadius 1;" + settings + groups(
+        top="type moving; patches (zMax); displacement"
+        ' { type file; file "constant/top.txt"; }',
+        bottom="type fixed; patches (zMin);",
+        walls='type sliding; patches ("[xy].*");'), cells=cells, **rest)
+    x = reference(case)
+    x = x[side(x, "zMax")]
+    (case.path/"constant/top.txt").write_text("".join(
+        f"{words(a)} 0 0 {0.1*np.sin(4*a[0])*np.cos(3*a[1])!r}\n" for a in x))
+    largest = np.abs(0.1*np.sin(4*x[:, 0])*np.cos(3*x[:, 1])).max()
+    return case, largest
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])
+def test_no_control_point_is_off_by_more_than_the_tolerance(tmp_path,
+                                                            tolerance):
+    case, largest = wavy(tmp_path, f"greedy {{ tolerance {tolerance}; }}")
+    (selected, candidates, error, allowed), = selections(
+        case.run("moveDynamicMesh"))
+    assert allowed == pytest.approx(tolerance*largest, rel=1e-5)
+    assert error <= allowed
+    assert selected < candidates
+    # All points of the boundary: every patch has a part
+    assert candidates == 9*9*7 - 7*7*5
+
+
+def test_a_smaller_tolerance_selects_more(tmp_path):
+    counts = []
+    for i, tolerance in enumerate((1e-1, 1e-2, 1e-3)):
+        case, _ = wavy(tmp_path/str(i),
+                       f"greedy {{ tolerance {tolerance}; }}")
+        counts.append(selections(case.run("moveDynamicMesh"))[0][0])
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_interior_points_differ_from_those_of_all_points_by_the_tolerance(
+        tmp_path):
+    some, largest = wavy(tmp_path/"some", "greedy { tolerance 1e-3; }")
+    all_, _ = wavy(tmp_path/"all", "selection all;")
+    (selected, candidates, error, _), = selections(
+        all_.run("moveDynamicMesh"))
+    assert selected == candidates and error < 1e-12*largest
+    difference = move(some) - all_.points("1/polyMesh/points")
+    assert 0 < np.abs(difference).max() < 10*1e-3*largest
+
+
+@pytest.mark.parametrize("per_sweep", ["auto", "1", "20"])
+def test_points_per_sweep_change_the_cost_not_the_tolerance(tmp_path,
+                                                            per_sweep):
+    case, largest = wavy(tmp_path, "greedy { tolerance 1e-2;"
+                         f" pointsPerSweep {per_sweep}; algorithm incremental;"
+                         " }")
+    (_, _, error, allowed), = selections(case.run("moveDynamicMesh"))
+    assert error <= allowed
+
+
+def test_the_log_has_one_line_for_each_selection(tmp_path):
+    case, _ = wavy(tmp_path, "greedy { tolerance 1e-2; }", control={"end": 3})
+    output = case.run("moveDynamicMesh")
+    assert len(re.findall(SELECTED, output, re.MULTILINE)) == 1
+    assert output.count("rbfMotionSolver:") == 1
+
+
+def test_debug_adds_the_times_of_every_step(tmp_path):
+    case, _ = wavy(tmp_path, "", control={"end": 3})
+    with open(case.path/"system/controlDict", "a") as control:
+        # Switches are set for the libraries that are loaded by then
+        control.write("libs (morphMotionSolvers);\n"
+                      "DebugSwitches { rbfMotionSolver 1; }\n")
+    output = case.run("moveDynamicMesh")
+    assert len(re.findall(r"^rbfMotionSolver: propagation \S+ s", output,
+                          re.MULTILINE)) == 3
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_reaching_maxPoints_is_a_warning_that_says_so(tmp_path, ranks):
+    case, _ = wavy(tmp_path, "greedy { tolerance 1e-4; maxPoints 30; }")
+    if ranks > 1:
+        case.decompose((2, 1, 1))
+    output = case.run("moveDynamicMesh", ranks=ranks)
+    (selected, _, error, allowed), = selections(output)
+    assert selected == 30 and error > allowed
+    assert "greedy/maxPoints is reached" in output
+    assert "exceeds the tolerance" in output
+    # The points that were told where to go are there nevertheless
+    before = reference(case)
+    top = side(before, "zMax")
+    after = case.decomposed_points("1/polyMesh/points") if ranks > 1 \
+        else case.points("1/polyMesh/points")
+    np.testing.assert_allclose(
+        after[top, 2] - 1, 0.1*np.sin(4*before[top, 0])
+        * np.cos(3*before[top, 1]), rtol=0, atol=1e-15)
+
+
+def test_enough_points_are_no_warning(tmp_path):
+    case, _ = wavy(tmp_path, "greedy { tolerance 1e-4; maxPoints 10000; }")
+    assert "Warning" not in case.run("moveDynamicMesh")
+
+
+ADVICE = (r"At patch '(\w+)' the motion around the control points is off by"
+          r" (\S+) heights of the first cell\s+.*?"
+          r"greedy/tolerance ([-+0-9.e]+)")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_warning_of_thin_first_cells_names_patch_and_tolerance_that_does(
+        tmp_path, ranks):
+    # The cells at the top are some 2e-4 high, a hundredth of the tolerance
+    thin = {"grading": (1, 1, 1e-3), "cells": (8, 8, 12)}
+    case, largest = wavy(tmp_path/"loose", "greedy { tolerance 0.02; }"
+                         "onInvalidMesh ignore;", **thin)
+    if ranks > 1:
+        case.decompose((2, 2, 1))
+        ranks = 4
+    output = case.run("moveDynamicMesh", ranks=ranks)
+    said = re.search(ADVICE, output, re.DOTALL)
+    assert said and said.group(1) == "zMax"
+    assert float(said.group(2)) > 0.1
+    tolerance = float(said.group(3))
+    assert 0 < tolerance < 0.02
+
+    case, _ = wavy(tmp_path/"advised", f"greedy {{ tolerance {tolerance}; }}",
+                   **thin)
+    assert "heights of the first cell" not in case.run("moveDynamicMesh")
+
+
+def test_the_tolerance_of_a_coarse_mesh_is_no_warning(tmp_path):
+    case, _ = wavy(tmp_path, "greedy { tolerance 0.01; }")
+    assert "Warning" not in case.run("moveDynamicMesh")
+
+
+def test_points_too_close_for_the_support_radius_are_a_warning(tmp_path):
+    # In a gaussian a thousand times as wide as the box all points are one
+    case, _ = wavy(tmp_path, "kernel gaussian; polynomial none;"
+                   "greedy { tolerance 1e-6; }")
+    text = (case.path/"constant/dynamicMeshDict").read_text()
+    (case.path/"constant/dynamicMeshDict").write_text(
+        text.replace("supportRadius 1;", "supportRadius 1000;"))
+    output = case.run("moveDynamicMesh")
+    assert re.search("too close|Round-off", output)
+    assert "Reduce the support radius" in output
