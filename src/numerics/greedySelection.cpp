@@ -167,7 +167,8 @@ std::vector<Index> GreedySelection::selected() const
 SelectionResult GreedySelection::select
 (
     const ControlPoints& candidates,
-    Communicator& communicator
+    Communicator& communicator,
+    const Observer& observer
 )
 {
     SelectionResult result;
@@ -190,9 +191,17 @@ SelectionResult GreedySelection::select
     const Index before = origins_.size();
     do
     {
-        Stopwatch time(result.sweepTime);
-        sweep(candidates);
-        ++result.sweeps;
+        {
+            Stopwatch time(result.sweepTime);
+            sweep(candidates);
+            ++result.sweeps;
+        }
+        if (observer)
+        {
+            result.added = Index(origins_.size()) - before;
+            summarise(candidates, communicator, result);
+            observer(result);
+        }
     }
     while (addPoints(candidates, communicator, result));
 

@@ -7,6 +7,7 @@
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -98,6 +99,9 @@ class GreedySelection
 {
 public:
 
+    // Told after every sweep what has been reached so far
+    using Observer = std::function<void(const SelectionResult&)>;
+
     // Throws std::invalid_argument for settings that contradict each other
     GreedySelection
     (
@@ -116,10 +120,13 @@ public:
     // Throws std::invalid_argument where a value is not finite or the candidates
     // cannot carry the polynomial asked for, std::runtime_error where memory does not suffice;
     // on all ranks alike.
+    //
+    // An observer, if there is one, has to be there on all ranks.
     SelectionResult select
     (
         const ControlPoints& candidates,
-        Communicator& communicator
+        Communicator& communicator,
+        const Observer& observer = Observer()
     );
 
     // The outcome of the last selection

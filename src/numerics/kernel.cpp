@@ -7,6 +7,9 @@
 namespace morph
 {
 
+const double radial::endOfSupport = 1;
+
+
 Kernel::Kernel(KernelType type, double supportRadius)
 :
     type_(type),

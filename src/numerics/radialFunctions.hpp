@@ -16,10 +16,15 @@ namespace morph
 namespace radial
 {
 
+// One. Were its value known, the compiler would make a branch of the clamping,
+// behind which the whole formula is a constant, and the loops would vectorise
+// only where there are masks (AVX-512)
+extern const double endOfSupport;
+
 inline double clampedRoot(double d2)
 {
     const double d = std::sqrt(d2);
-    return d < 1 ? d : 1;
+    return d < endOfSupport ? d : endOfSupport;
 }
 
 struct WendlandC0

@@ -61,8 +61,8 @@ def test_numerics_knows_nothing_of_openfoam():
 
 
 def test_wmake_can_tell_all_files_apart():
-    names = [p.name for folder in ("src", "applications", "tests", "tutorials",
-                            "benchmarks")
+    names = [p.name for folder in ("src", "applications", "benchmarks", "tests",
+                                     "tutorials")
              for p in sources(folder)]
     assert sorted(names) == sorted(set(names))
 
