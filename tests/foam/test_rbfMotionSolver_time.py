@@ -74,7 +74,7 @@ def test_the_support_radius_of_the_largest_displacement_survives_a_restart(
         tmp_path):
     # It grows with the displacement until 0.75 and is kept from there on
     whole, parts, selected, again = runs(
-        tmp_path, PATTERN, "greedy { tolerance 1e-2; }")
+        tmp_path, PATTERN, "supportRadiusFactor 4; greedy { tolerance 1e-2; }")
     assert len(selected) == 3
     assert selected[-1][:2] == again[-1][:2]
     np.testing.assert_allclose(parts, whole, rtol=0, atol=1e-13*SPAN)
