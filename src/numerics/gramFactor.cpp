@@ -15,18 +15,6 @@ namespace morph
 namespace
 {
 
-// Grows [A] to [A 0; B D] with D lower triangular
-void appendLower(GrowingMatrix& a, const Matrix& b, const Matrix& d)
-{
-    const Index n = a.rows();
-    const Index m = d.rows();
-    a.grow(n + m, n + m);
-    a.view().topRightCorner(n, m).setZero();
-    a.view().bottomLeftCorner(m, n) = b;
-    a.view().bottomRightCorner(m, m) = d;
-}
-
-
 void append(Columns& x, const ControlPoints& points)
 {
     const Index n = x.rows();
@@ -44,30 +32,6 @@ bool cholesky(const Matrix& a, Matrix& lower)
 }
 
 
-// L^-1 B, where only the lower triangle of L is looked at
-template<class Lower>
-Matrix solved(const Lower& L, Matrix b)
-{
-    if (L.rows() > 0)
-    {
-        L.template triangularView<Eigen::Lower>().solveInPlace(b);
-    }
-    return b;
-}
-
-
-// L^-T B
-template<class Lower>
-Matrix solvedTransposed(const Lower& L, Matrix b)
-{
-    if (L.rows() > 0)
-    {
-        L.transpose().template triangularView<Eigen::Upper>().solveInPlace(b);
-    }
-    return b;
-}
-
-
 Matrix selectColumns(const Matrix& a, const std::vector<Index>& columns)
 {
     Matrix b(a.rows(), columns.size());
@@ -79,7 +43,27 @@ Matrix selectColumns(const Matrix& a, const std::vector<Index>& columns)
 }
 
 
-Matrix select
+// The rows in the system of points of a list
+std::vector<Index> rowsOf
+(
+    const std::vector<Index>& points,
+    const std::vector<Index>& offset
+)
+{
+    std::vector<Index> rows;
+    for (const Index i : points)
+    {
+        for (Index r = offset[i]; r < offset[i + 1]; ++r)
+        {
+            rows.push_back(r);
+        }
+    }
+    return rows;
+}
+
+
+// Of a symmetric matrix that has only its lower triangle
+Matrix selectSymmetric
 (
     const Matrix& a,
     const std::vector<Index>& rows,
@@ -91,10 +75,24 @@ Matrix select
     {
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
-            b(i, j) = a(rows[i], columns[j]);
+            b(i, j) = a
+            (
+                std::max(rows[i], columns[j]),
+                std::min(rows[i], columns[j])
+            );
         }
     }
     return b;
+}
+
+
+// a -= x^T x, in the lower triangle
+void subtractSquare(Matrix& a, const Matrix& x)
+{
+    if (x.rows() > 0)
+    {
+        a.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose(), -1);
+    }
 }
 
 
@@ -106,6 +104,47 @@ std::vector<Index> offsets(const ControlPoints& points)
         offset.push_back(offset.back() + p.k);
     }
     return offset;
+}
+
+
+// t_ij C_i^T C_j
+Matrix constrained
+(
+    const Matrix& t,
+    const ControlPoints& rows,
+    const ControlPoints& columns,
+    bool onlyLower = false
+)
+{
+    // The directions of all rows, and whose they are
+    std::vector<Index> point;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+        point.insert(point.end(), rows[i].k, i);
+    }
+    const Index n = point.size();
+    Columns c(n, 3);
+    const std::vector<Index> first = offsets(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+        c.middleRows(first[i], rows[i].k) = rows[i].C().transpose();
+    }
+
+    Matrix e(n, offsets(columns).back());
+    Index column = 0;
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+        for (int k = 0; k < columns[j].k; ++k, ++column)
+        {
+            const Vector3 d = columns[j].directions.col(k);
+            for (Index i = onlyLower ? column : 0; i < n; ++i)
+            {
+                e(i, column) = t(point[i], j)
+                   *(c(i, 0)*d[0] + c(i, 1)*d[1] + c(i, 2)*d[2]);
+            }
+        }
+    }
+    return e;
 }
 
 } // namespace
@@ -186,59 +225,6 @@ Matrix GramFactor::shift(const Columns& x) const
 }
 
 
-Matrix GramFactor::directions(const ControlPoints& points) const
-{
-    const std::vector<Index> offset = offsets(points);
-    Matrix c(offset.back(), 3);
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        c.middleRows(offset[i], points[i].k) = points[i].C().transpose();
-    }
-    return c;
-}
-
-
-Matrix GramFactor::expand
-(
-    const Matrix& scalar,
-    const ControlPoints& rows,
-    const ControlPoints& columns
-)
-{
-    const std::vector<Index> row = offsets(rows);
-    const std::vector<Index> column = offsets(columns);
-    Matrix e(row.back(), column.back());
-    for (std::size_t j = 0; j < columns.size(); ++j)
-    {
-        for (Index c = column[j]; c < column[j + 1]; ++c)
-        {
-            for (std::size_t i = 0; i < rows.size(); ++i)
-            {
-                for (Index r = row[i]; r < row[i + 1]; ++r)
-                {
-                    e(r, c) = scalar(i, j);
-                }
-            }
-        }
-    }
-    return e;
-}
-
-
-Matrix GramFactor::constrained
-(
-    const Matrix& scalar,
-    const ControlPoints& rows,
-    const ControlPoints& columns
-) const
-{
-    return expand(scalar, rows, columns).cwiseProduct
-    (
-        directions(rows)*directions(columns).transpose()
-    );
-}
-
-
 GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
 {
     Residual result;
@@ -249,9 +235,9 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
     }
 
     const Columns x = positions(list);
-    result.Y = solved(L_.view(), kernelBlock(xM_, x));
+    result.Y = L_.solved(kernelBlock(xM_, x));
     result.TKK = kernelBlock(x, x);
-    result.TKK.noalias() -= result.Y.transpose()*result.Y;
+    subtractSquare(result.TKK, result.Y);
     result.TSK = kernelBlock(xS_, x);
 
     if (result.scalar)
@@ -265,14 +251,13 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
     }
 
     result.offset = offsets(list);
-    result.W = constrained(result.TKK, list, list);
     if (!sliding_.empty())
     {
         result.TSK.noalias() -= Y_.view().transpose()*result.Y;
-        const Matrix Q =
-            solved(R_.view(), constrained(result.TSK, sliding_, list));
-        result.W.noalias() -= Q.transpose()*Q;
     }
+    result.Q = R_.solved(constrained(result.TSK, sliding_, list));
+    result.W = constrained(result.TKK, list, list, true);
+    subtractSquare(result.W, result.Q);
     return result;
 }
 
@@ -302,26 +287,29 @@ std::vector<bool> GramFactor::append
 
     Index nextPrescribed = prescribed_.size();
     Index nextSliding = sliding_.size();
+    Matrix l;
     const bool prescribedIn = P.empty() || appendPrescribed
     (
         prescribed,
         selectColumns(residual.Y, P),
-        select(residual.TKK, P, P),
-        selectColumns(residual.TSK, P)
+        selectSymmetric(residual.TKK, P, P),
+        selectColumns(residual.TSK, P),
+        l
     );
 
     // What the prescribed ones, if they are in, take from the sliding ones
     Matrix Y = selectColumns(residual.Y, Q);
-    Matrix T = select(residual.TKK, Q, Q);
+    Matrix T = selectSymmetric(residual.TKK, Q, Q);
     Matrix TS = selectColumns(residual.TSK, Q);
     if (prescribedIn && !P.empty() && !Q.empty())
     {
         const Index n = nextPrescribed;
         const Index m = P.size();
-        const Matrix rows = solved
-        (
-            L_.view().bottomRightCorner(m, m), select(residual.TKK, P, Q)
-        );
+        const Matrix rows =
+            l.triangularView<Eigen::Lower>().solve
+            (
+                selectSymmetric(residual.TKK, P, Q)
+            );
         Y.conservativeResize(n + m, Q.size());
         Y.bottomRows(m) = rows;
         T.noalias() -= rows.transpose()*rows;
@@ -330,7 +318,16 @@ std::vector<bool> GramFactor::append
             TS.noalias() -= Y_.view().bottomRows(m).transpose()*rows;
         }
     }
-    const bool slidingIn = Q.empty() || appendSliding(sliding, Y, T, TS);
+    const bool slidingIn = Q.empty() || appendSliding
+    (
+        sliding,
+        Y,
+        T,
+        TS,
+        prescribedIn && !P.empty()
+      ? R_.solved(constrained(TS, sliding_, sliding))
+      : selectColumns(residual.Q, rowsOf(Q, residual.offset))
+    );
 
     std::vector<bool> in;
     for (const Index i : which)
@@ -352,10 +349,10 @@ bool GramFactor::appendPrescribed
     const ControlPoints& points,
     const Matrix& X,
     const Matrix& T,
-    const Matrix& TS
+    const Matrix& TS,
+    Matrix& l
 )
 {
-    Matrix l;
     if (!cholesky(T, l))
     {
         return false;
@@ -366,21 +363,22 @@ bool GramFactor::appendPrescribed
     const Index nS = xS_.rows();
     if (nS > 0)
     {
-        const Matrix rows = solved(l, TS.transpose());
+        const Matrix rows =
+            l.triangularView<Eigen::Lower>().solve(TS.transpose());
         Matrix TSS = T_.view();
-        TSS.noalias() -= rows.transpose()*rows;
+        subtractSquare(TSS, rows);
         Matrix R;
-        if (!cholesky(constrained(TSS, sliding_, sliding_), R))
+        if (!cholesky(constrained(TSS, sliding_, sliding_, true), R))
         {
             return false;
         }
-        R_.view() = R;
+        R_.set(R);
         T_.view() = TSS;
         Y_.grow(n + m, nS);
         Y_.view().bottomRows(m) = rows;
     }
 
-    appendLower(L_, X.transpose(), l);
+    L_.append(X.transpose(), l);
     morph::append(xM_, points);
     prescribed_.insert(prescribed_.end(), points.begin(), points.end());
     return true;
@@ -392,25 +390,24 @@ bool GramFactor::appendSliding
     const ControlPoints& points,
     const Matrix& Y,
     const Matrix& T,
-    const Matrix& TS
+    const Matrix& TS,
+    const Matrix& X
 )
 {
     const Index n = xS_.rows();
     const Index m = points.size();
-    const Matrix X = solved(R_.view(), constrained(TS, sliding_, points));
-    Matrix D = constrained(T, points, points);
-    D.noalias() -= X.transpose()*X;
+    Matrix D = constrained(T, points, points, true);
+    subtractSquare(D, X);
     Matrix r;
     if (!cholesky(D, r))
     {
         return false;
     }
 
-    appendLower(R_, X.transpose(), r);
+    R_.append(X.transpose(), r);
     Y_.grow(xM_.rows(), n + m);
     Y_.view().rightCols(m) = Y;
     T_.grow(n + m, n + m);
-    T_.view().topRightCorner(n, m) = TS;
     T_.view().bottomLeftCorner(m, n) = TS.transpose();
     T_.view().bottomRightCorner(m, m) = T;
     morph::append(xS_, points);
@@ -446,7 +443,7 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
     {
         d.row(i) += prescribed_[i].value.transpose();
     }
-    Matrix z = solved(L_.view(), d);
+    Matrix z = L_.solved(d);
 
     Columns gamma = Columns::Zero(r + nM + nS, 3);
     if (nS > 0)
@@ -460,7 +457,7 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
             g.middleRows(offset[i], p.k) =
                 p.residual(known.row(i).transpose()).head(p.k);
         }
-        const Matrix alpha = solvedTransposed(R_.view(), solved(R_.view(), g));
+        const Matrix alpha = R_.solvedTransposed(R_.solved(g));
         for (Index i = 0; i < nS; ++i)
         {
             const ControlPoint& p = sliding_[i];
@@ -470,7 +467,7 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
         }
         z.noalias() -= Y_.view()*gamma.bottomRows(nS);
     }
-    gamma.middleRows(r, nM) = solvedTransposed(L_.view(), z);
+    gamma.middleRows(r, nM) = L_.solvedTransposed(z);
 
     const Columns x = centres();
     if (r > 0)

@@ -6,6 +6,7 @@
 #include "affineBasis.hpp"
 #include "controlPoints.hpp"
 #include "growingMatrix.hpp"
+#include "growingTriangle.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 
@@ -62,7 +63,8 @@ public:
     // The system that is left for further points once those appended are
     // eliminated, W = G_KK - G_KA G_AA^-1 G_AK, and the parts of it that
     // appending them needs again. Where neither the list nor those appended
-    // slide, one row of W stands for the three of a point.
+    // slide, one row of W stands for the three of a point. Of W and TKK, which
+    // are symmetric, only the lower triangles are set.
     struct Residual
     {
         Matrix W;
@@ -72,6 +74,7 @@ public:
         Matrix Y;      // L^-1 K_MK
         Matrix TKK;    // K_KK - Y^T Y
         Matrix TSK;    // K_SK - Y_S^T Y
+        Matrix Q;      // R^-1 of TSK with its directions
     };
     Residual residual(const ControlPoints& list) const;
 
@@ -111,24 +114,21 @@ private:
     };
 
     Matrix kernelBlock(const Columns& a, const Columns& b) const;
-    Matrix directions(const ControlPoints& sliding) const;
-    static Matrix expand(const Matrix& scalar, const ControlPoints& rows,
-        const ControlPoints& columns);
-    Matrix constrained(const Matrix& scalar, const ControlPoints& rows,
-        const ControlPoints& columns) const;
     bool appendPrescribed
     (
         const ControlPoints& points,
         const Matrix& X,
         const Matrix& T,
-        const Matrix& TS
+        const Matrix& TS,
+        Matrix& l
     );
     bool appendSliding
     (
         const ControlPoints& points,
         const Matrix& Y,
         const Matrix& T,
-        const Matrix& TS
+        const Matrix& TS,
+        const Matrix& X
     );
     Matrix shift(const Columns& x) const;
 
@@ -142,14 +142,14 @@ private:
     // M
     ControlPoints prescribed_;
     Columns xM_;
-    GrowingMatrix L_;
+    GrowingTriangle L_;
 
     // S
     ControlPoints sliding_;
     Columns xS_;
     GrowingMatrix Y_;
-    GrowingMatrix T_;
-    GrowingMatrix R_;
+    GrowingMatrix T_;   // lower triangle
+    GrowingTriangle R_;
 };
 
 } // namespace morph

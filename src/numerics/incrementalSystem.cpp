@@ -52,6 +52,24 @@ Matrix rightHandSide
 }
 
 
+// Columns of a symmetric matrix of which the lower triangle is there
+Matrix symmetricColumns(const Matrix& W, Index first, Index count)
+{
+    const Index n = W.rows();
+    Matrix v(n, count);
+    v.topRows(first) = W.block(first, 0, count, first).transpose();
+    v.bottomRows(n - first) = W.block(first, first, n - first, count);
+    for (Index j = 1; j < count; ++j)
+    {
+        for (Index i = 0; i < j; ++i)
+        {
+            v(first + i, j) = v(first + j, i);
+        }
+    }
+    return v;
+}
+
+
 // The usable point with the largest error above the least, or -1
 Index worstOf
 (
@@ -132,7 +150,7 @@ ControlSystem::Choice IncrementalSystem::choose
         usable[p] = 0;
 
         const Index k = first[p + 1] - first[p];
-        Matrix v = residual_.W.middleCols(first[p], k);
+        Matrix v = symmetricColumns(residual_.W, first[p], k);
         v.noalias() -=
             V.leftCols(columns)*V.block(first[p], 0, k, columns).transpose();
         const Eigen::LLT<Matrix> pivot(v.middleRows(first[p], k));
