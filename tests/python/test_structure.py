@@ -20,7 +20,7 @@ MAY_INCLUDE = {
 
 
 # Made by builds and runs
-GENERATED = {"lnInclude", "build", "work", "linux64GccDPInt32Opt"}
+GENERATED = {"lnInclude", "build", "runs", "linux64GccDPInt32Opt"}
 
 
 def sources(folder):
