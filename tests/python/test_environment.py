@@ -1,0 +1,72 @@
+"""On a machine whose user has sourced an OpenFOAM, that one is used and nothing
+is installed. Source of truth: the README's section "Two commands".
+"""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def machine(tmp_path):
+    """An environment with somebody's OpenFOAM, and an apt-get that tells."""
+    programs = tmp_path/"bin"
+    programs.mkdir()
+    for name in ("apt-get", "sudo"):
+        (programs/name).write_text(f"#!/bin/sh\ntouch '{tmp_path}/called'\n")
+        (programs/name).chmod(0o755)
+    return {
+        "PATH": f"{programs}:/usr/bin:/bin", "HOME": str(tmp_path),
+        "WM_PROJECT_DIR": str(tmp_path/"OpenFOAM-v2312"),
+        "WM_PROJECT_VERSION": "v2312", "WM_OPTIONS": "linux64GccDPInt32Opt",
+    }
+
+
+def bash(command, environment):
+    return subprocess.run(
+        ["bash", "-c", command], cwd=ROOT, env=environment,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def test_a_sourced_openfoam_stays_and_ours_is_added(machine):
+    done = bash(". etc/bashrc && echo $WM_PROJECT_DIR && echo $PATH"
+                " && echo $LD_LIBRARY_PATH", machine)
+    project, path, libraries = done.stdout.decode().split()
+    assert project == machine["WM_PROJECT_DIR"]
+    ours = f"{ROOT}/build/{machine['WM_OPTIONS']}"
+    assert f"{ours}/bin" in path.split(":")
+    assert f"{ours}/lib" in libraries.split(":")
+    assert "noLink" not in path
+
+
+def test_where_an_openfoam_is_sourced_nothing_is_installed(machine, tmp_path):
+    done = bash("bin/needPackages a-package-nobody-has", machine)
+    assert done.returncode == 0
+    assert b"a-package-nobody-has" in done.stdout
+    assert not (tmp_path/"called").exists()
+
+
+def test_without_one_missing_packages_are_installed(machine, tmp_path):
+    del machine["WM_PROJECT_DIR"], machine["WM_PROJECT_VERSION"]
+    bash("bin/needPackages a-package-nobody-has", machine)
+    assert (tmp_path/"called").exists()
+
+
+@pytest.mark.parametrize("version", ["10", "4.1", "dev"])
+def test_another_openfoam_is_refused(machine, tmp_path, version):
+    done = bash("./Allwmake", {**machine, "WM_PROJECT_VERSION": version})
+    assert done.returncode == 1
+    assert b"openfoam.com" in done.stdout
+    assert not (tmp_path/"called").exists()
+
+
+def test_a_python_is_found_that_has_what_is_needed():
+    done = bash("bin/python3With json csv", dict(os.environ))
+    assert done.returncode == 0
+    done = bash("bin/python3With no_such_module", dict(os.environ))
+    assert done.returncode == 1
+    assert b"no_such_module" in done.stdout
