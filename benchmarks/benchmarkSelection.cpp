@@ -287,20 +287,22 @@ void run(const Options& options)
         const SelectionResult result =
             selection.select(set.points, alone, observer);
         const double total = secondsSince(start);
-        const double memory = statusBytes("VmHWM") - before;
+        const double peak = statusBytes("VmHWM") - before;
+        malloc_trim(0);
+        const double kept = statusBytes("VmRSS") - before;
 
         std::printf
         (
             "{\"set\": \"%s\", \"candidates\": %ld, \"selected\": %ld, "
             "\"rejected\": %ld, \"error\": %.6e, \"sweeps\": %ld, "
             "\"sweep\": %.6f, \"list\": %.6f, \"solve\": %.6f, "
-            "\"total\": %.6f, \"memoryMB\": %.2f, \"roundOff\": %.3e, "
+            "\"total\": %.6f, \"peakMB\": %.2f, \"keptMB\": %.2f, \"roundOff\": %.3e, "
             "\"evaluationError\": %.3e}\n",
             set.name.c_str(), long(result.candidates), long(result.selected),
             long(result.rejected),
             result.largestError/result.largestDisplacement,
             long(result.sweeps), result.sweepTime, result.listTime,
-            result.solveTime, total, memory*1e-6,
+            result.solveTime, total, peak*1e-6, kept*1e-6,
             result.roundOff/result.largestDisplacement,
             evaluationError
             (
