@@ -28,13 +28,20 @@ public:
     // Candidates of the list to append next, at most `most`. The first of the
     // list, the worst, is tried in any case; others only while the errors left
     // in the list exceed `least`, and once one is taken also `outside`.
+    // This default takes the first alone, and leaves it to append() to find
+    // out whether the system is singular with it.
     virtual Choice choose
     (
-        const std::vector<Listed>& list,
-        Index most,
-        double least,
-        double outside
-    ) = 0;
+        const std::vector<Listed>& /* list */,
+        Index /* most */,
+        double /* least */,
+        double /* outside */
+    )
+    {
+        Choice choice;
+        choice.taken.push_back(0);
+        return choice;
+    }
 
     // Appends what was chosen from the list and tells which of it is in: points
     // with which the system would be singular to round-off are left out.

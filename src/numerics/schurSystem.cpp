@@ -53,21 +53,6 @@ SchurSystem::SchurSystem
 }
 
 
-ControlSystem::Choice SchurSystem::choose
-(
-    const std::vector<Listed>&,
-    Index,
-    double,
-    double
-)
-{
-    // The worst one; whether it makes the system singular shows in append
-    Choice choice;
-    choice.taken.push_back(0);
-    return choice;
-}
-
-
 std::vector<bool> SchurSystem::append
 (
     const std::vector<Listed>& list,

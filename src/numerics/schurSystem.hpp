@@ -33,14 +33,6 @@ public:
         Communicator& communicator
     );
 
-    Choice choose
-    (
-        const std::vector<Listed>& list,
-        Index most,
-        double least,
-        double outside
-    ) override;
-
     std::vector<bool> append
     (
         const std::vector<Listed>& list,

@@ -13,21 +13,6 @@ StandardSystem::StandardSystem(const Kernel& kernel)
 {}
 
 
-ControlSystem::Choice StandardSystem::choose
-(
-    const std::vector<Listed>&,
-    Index,
-    double,
-    double
-)
-{
-    // The worst one; whether it makes the system singular shows in append
-    Choice choice;
-    choice.taken.push_back(0);
-    return choice;
-}
-
-
 std::vector<bool> StandardSystem::append
 (
     const std::vector<Listed>& list,

@@ -20,14 +20,6 @@ public:
 
     explicit StandardSystem(const Kernel& kernel);
 
-    Choice choose
-    (
-        const std::vector<Listed>& list,
-        Index most,
-        double least,
-        double outside
-    ) override;
-
     std::vector<bool> append
     (
         const std::vector<Listed>& list,

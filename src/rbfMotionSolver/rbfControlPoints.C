@@ -108,6 +108,22 @@ void Foam::rbfControlPoints::assign()
     controlled_.transfer(labels);
     group_ = UIndirectList<label>(group, controlled_);
     listed_ = UIndirectList<label>(listed, controlled_);
+
+    members_.setSize(groups_.size());
+    forAll(groups_, groupi)
+    {
+        const labelHashSet there(groups_[groupi].meshPoints());
+        DynamicList<label> mine;
+        forAll(controlled_, i)
+        {
+            const bool has = listed_[i] >= 0 || there.found(controlled_[i]);
+            if (group_[i] == groupi && has)
+            {
+                mine.append(i);
+            }
+        }
+        members_[groupi].transfer(mine);
+    }
 }
 
 
@@ -311,18 +327,9 @@ Foam::vectorField Foam::rbfControlPoints::displacements() const
     vectorField d(controlled_.size(), unknown);
     forAll(groups_, groupi)
     {
-        const labelHashSet members(groups_[groupi].meshPoints());
-        DynamicList<label> mine;
-        forAll(controlled_, i)
-        {
-            const bool has = listed_[i] >= 0 || members.found(controlled_[i]);
-            if (group_[i] == groupi && has)
-            {
-                mine.append(i);
-            }
-        }
-        const labelList meshPoints(controlled_, mine);
-        const labelList listed(listed_, mine);
+        const labelList& mine = members_[groupi];
+        const labelList meshPoints(UIndirectList<label>(controlled_, mine));
+        const labelList listed(UIndirectList<label>(listed_, mine));
         const pointField positions(points0_, meshPoints);
         const tmp<vectorField> tvalues
         (

@@ -225,6 +225,8 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
         dict.found("supportRadiusFactor")
       ? dictionaryChecks::getPositive(dict, "supportRadiusFactor")
       : 4;
+    settings.supportRadiusSpans =
+        dict.found("supportRadiusFactor") ? 0 : 0.5;
 
     settings.selection = readSelection(dict);
     settings.surfaceCorrection =

@@ -65,6 +65,9 @@ namespace Foam
 // distance of selected points, over which what they leave varies
 static const scalar correctionReach = 0.1;
 
+// Least factor by which a support radius that follows the motion grows
+static const scalar radiusGrowth = 1.5;
+
 
 static IOobject pointDisplacementIO(const polyMesh& mesh)
 {
@@ -105,7 +108,6 @@ Foam::rbfMotionSolver::rbfMotionSolver
     ),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    largestDisplacement_(0),
     supportRadius_(0)
 {
     readPointDisplacement();
@@ -124,7 +126,6 @@ Foam::rbfMotionSolver::rbfMotionSolver
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    largestDisplacement_(0),
     supportRadius_(0)
 {
     foamCompat::registerObject(pointDisplacement_);
@@ -199,9 +200,9 @@ void Foam::rbfMotionSolver::readProperties()
         )
     );
     string digits;
-    if (properties_->readIfPresent("largestDisplacement", digits))
+    if (properties_->readIfPresent("supportRadius", digits))
     {
-        readScalar(digits, largestDisplacement_);
+        readScalar(digits, supportRadius_);
     }
 }
 
@@ -265,30 +266,52 @@ void Foam::rbfMotionSolver::makeGeometry()
 }
 
 
-bool Foam::rbfMotionSolver::updateSupportRadius()
+Foam::scalar Foam::rbfMotionSolver::neededSupportRadius() const
 {
+    if (settings_.supportRadius > 0)
+    {
+        return settings_.supportRadius;
+    }
+
     scalar largest = 0;
+    boundBox moving;
     for (const morph::ControlPoint& p : controlPoints_->candidates())
     {
-        largest = max(largest, scalar(p.g().norm()));
+        const scalar displacement = p.g().norm();
+        largest = max(largest, displacement);
+        if (displacement > 0)
+        {
+            moving.add(toFoam(p.position));
+        }
     }
-    largestDisplacement_ =
-        max(largestDisplacement_, returnReduce(largest, maxOp<scalar>()));
+    Foam::reduce(largest, maxOp<scalar>());
+    moving.reduce();
+    return max
+    (
+        settings_.supportRadiusFactor*largest,
+        moving.valid() ? settings_.supportRadiusSpans*moving.mag() : 0
+    );
+}
+
+
+bool Foam::rbfMotionSolver::updateSupportRadius()
+{
+    const scalar former = supportRadius_;
+    const scalar needed = neededSupportRadius();
+    if (needed > former)
+    {
+        // In steps, since every new radius is a new selection
+        supportRadius_ = max(needed, radiusGrowth*former);
+    }
 
     if (properties_.valid())
     {
         // A string, since numbers are written with writePrecision digits
         std::ostringstream digits;
         digits.precision(std::numeric_limits<scalar>::max_digits10);
-        digits << largestDisplacement_;
-        properties_->set("largestDisplacement", string(digits.str()));
+        digits << supportRadius_;
+        properties_->set("supportRadius", string(digits.str()));
     }
-
-    const scalar former = supportRadius_;
-    supportRadius_ =
-        settings_.supportRadius > 0
-      ? settings_.supportRadius
-      : settings_.supportRadiusFactor*largestDisplacement_;
     return supportRadius_ != former;
 }
 

@@ -17,6 +17,9 @@ SPAN = np.sqrt(3)
 
 FREE = {name: "zeroGradient" for name in CUBE}
 
+# Leaves out some of the points, which nevertheless have to keep their surface
+COARSE = "greedy { tolerance 0.2; }"
+
 KERNELS = ["wendlandC0", "wendlandC2", "wendlandC4", "wendlandC6", "gaussian",
            "inverseMultiQuadric", "multiQuadric", "thinPlate"]
 
@@ -158,7 +161,7 @@ def test_cyclic_pairs_keep_their_separation(tmp_path, ranks):
 
 def test_edges_of_two_slip_walls_slide_along_themselves_and_corners_stay(
         tmp_path):
-    case = rbf_case(tmp_path, coeffs="supportRadius 2;\n" + groups(
+    case = rbf_case(tmp_path, coeffs=COARSE + "supportRadius 2;\n" + groups(
         one="type moving; points ((0.5 0.5 0.5));" + uniform(.05, .04, -.06),
         walls='type sliding; patches (".*");'))
     before = reference(case)
@@ -188,25 +191,30 @@ def rotated(points, angle=0.7, axis=(1, 2, 3)):
 def test_points_of_a_plane_in_any_direction_stay_on_it(tmp_path):
     corners = [(x, y, z) for z in (0, 1)
                for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    up = rotated([(0, 0, 0.2)])[0]
+    up = rotated([(0.05, 0.03, 0.2)])[0]
     case = rbf_case(
         tmp_path, {**{name: "slip" for name in CUBE},
                    "zMin": fixed(0, 0, 0), "zMax": fixed(*up)},
-        corners=rotated(corners))
+        coeffs=COARSE, corners=rotated(corners))
     before = rotated(reference(case), -0.7)
-    after = rotated(move(case), -0.7)
+    (selected, candidates, error, _), = selections(
+        case.run("moveDynamicMesh"))
+    assert selected < candidates and error > 1e-3
+    after = rotated(case.points("1/polyMesh/points"), -0.7)
     for name in ("xMin", "xMax", "yMin", "yMax"):
         axis = "xyz".index(name[0])
-        on = np.isclose(before[:, axis], 1 if "Max" in name else 0)
-        assert on.sum() == 25
+        # The top moves off the plane, what slides below it does not
+        on = np.isclose(before[:, axis], 1 if "Max" in name else 0) \
+            & (before[:, 2] < 0.9)
+        assert on.sum() == 20
         np.testing.assert_allclose(after[on, axis], before[on, axis],
                                    rtol=0, atol=1e-12*SPAN)
-        assert np.abs(after[on] - before[on]).max() > 0.1
+        assert np.abs(after[on] - before[on]).max() > 0.05
 
 
 def test_a_moving_surface_imposes_only_the_normal_part_on_what_slides(
         tmp_path):
-    case = rbf_case(tmp_path, coeffs="supportRadius 1;\n" + groups(
+    case = rbf_case(tmp_path, coeffs=COARSE + "supportRadius 1;\n" + groups(
         ends="type fixed; patches (zMin zMax xMin);",
         flank="type sliding; patches (xMax);" + uniform(0.1, 0.3, 0.2)))
     before = reference(case)
@@ -220,7 +228,7 @@ def test_a_moving_surface_imposes_only_the_normal_part_on_what_slides(
 
 def test_points_slide_on_the_surface_where_it_has_moved_to(tmp_path):
     angle, centre = 0.1, np.array([1, 0.5, 0.5])
-    case = rbf_case(tmp_path, coeffs="supportRadius 1;\n" + groups(
+    case = rbf_case(tmp_path, coeffs=COARSE + "supportRadius 1;\n" + groups(
         held="type fixed; patches (xMin);",
         flank="type sliding; patches (xMax); displacement { type solidBody;"
         " solidBodyMotionFunction rotatingMotion; rotatingMotionCoeffs"

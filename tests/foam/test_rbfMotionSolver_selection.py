@@ -160,3 +160,27 @@ def test_points_too_close_for_the_support_radius_are_a_warning(tmp_path):
     output = case.run("moveDynamicMesh")
     assert re.search("too close|Round-off", output)
     assert "Reduce the support radius" in output
+
+
+# --- the support radius where none is given
+
+
+def tiny(path, coeffs):
+    """Selected points for a lid that bends by much less than a cell."""
+    case = rbf_case(path, coeffs=coeffs + groups(
+        lid="type moving; patches (zMax); displacement { type polyline;"
+            " vertices ((0 0 1) (1 0 1)); values ((0 0 1e-4) (0 0 0)); }",
+        rest="type fixed; patches (zMin);"), cells=(12, 12, 6))
+    (selected, candidates, _, _), = selections(case.run("moveDynamicMesh"))
+    return selected, candidates
+
+
+def test_by_default_a_tiny_first_step_does_not_let_every_point_move_alone(
+        tmp_path):
+    """With four displacements as radius the kernel matrix is the identity, and
+    every point that moves has to be selected (156 of 169: the last row of the
+    lid stands still); half the span of the lid is a smooth field instead."""
+    alone, candidates = tiny(tmp_path/"factor", "supportRadiusFactor 4;")
+    assert (alone, candidates) == (12*13, 2*13*13)
+    selected, _ = tiny(tmp_path/"default", "greedy { tolerance 1e-2; }")
+    assert selected < 100

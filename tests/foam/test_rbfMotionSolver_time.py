@@ -74,19 +74,20 @@ def test_the_support_radius_of_the_largest_displacement_survives_a_restart(
         tmp_path):
     # It grows with the displacement until 0.75 and is kept from there on
     whole, parts, selected, again = runs(
-        tmp_path, PATTERN, "greedy { tolerance 1e-2; }")
+        tmp_path, PATTERN, "supportRadiusFactor 4; greedy { tolerance 1e-2; }")
     assert len(selected) == 3
     assert selected[-1][:2] == again[-1][:2]
     np.testing.assert_allclose(parts, whole, rtol=0, atol=1e-13*SPAN)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+@pytest.mark.parametrize("tolerance", [3e-2, 1e-2])
 def test_another_pattern_restarts_to_the_tolerance(tmp_path, tolerance):
     # The runs may select other points: both are within the tolerance, times
     # the largest displacement, at control points, and about so elsewhere
     whole, parts, selected, _ = runs(
         tmp_path, TURN, f"supportRadius 1; greedy {{ tolerance {tolerance}; }}")
-    allowed = selected[-1][3]
+    n, candidates, _, allowed = selected[-1]
+    assert n < candidates
     assert np.abs(parts - whole).max() <= 3*allowed
 
 

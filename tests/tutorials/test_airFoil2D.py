@@ -23,7 +23,7 @@ def tutorial(tmp_path_factory):
     shutil.copytree(
         root / "tutorials/airFoil2D", copy,
         ignore=shutil.ignore_patterns(
-            "0", "[1-9]*", "work", "results", "log.*", "polyMesh",
+            "0", "[1-9]*", "runs", "results", "log.*", "polyMesh",
             "postProcessing", "*.foam", "__pycache__"))
     return copy
 
@@ -71,7 +71,7 @@ def test_lift_hardly_depends_on_which_solver_moved_the_mesh(flow):
 def test_mesh_pitched_by_ten_degrees_keeps_its_quality(tutorial, flow):
     sys.path.insert(0, str(root / "scripts"))
     from foamOutput import readColumns
-    path, = (tutorial / "work/pitched10/postProcessing/morphMesh").glob(
+    path, = (tutorial / "runs/pitched10/postProcessing/morphMesh").glob(
         "*/quality.dat")
     quality = readColumns(path)
     assert quality["wronglyOrientedFaces"][-1] == 0

@@ -27,8 +27,8 @@ invalid = re.compile(r"incorrectly oriented|negative cell volume")
 
 
 def makeCase(motion, linearSolver, step=1):
-    """A fresh case in work/angles: the shared dictionaries and the mesh"""
-    case = here / "work/angles" / f"{motion}.{linearSolver}.{step:g}"
+    """A fresh case in runs/angles: the shared dictionaries and the mesh"""
+    case = here / "runs/angles" / f"{motion}.{linearSolver}.{step:g}"
     shutil.rmtree(case, ignore_errors=True)
     shutil.copytree(here / "angles", case,
                     ignore=shutil.ignore_patterns("motions", "linearSolvers"))

@@ -13,7 +13,7 @@ from foamOutput import iterations, readColumns, writeTable  # noqa: E402
 
 
 def row(angle, start):
-    case = here / f"work/{start}{angle}"
+    case = here / f"runs/{start}{angle}"
     steps, converged = iterations(case / "log.simpleFoam")
     output, = (case / "postProcessing/forces").glob("*/coefficient.dat")
     forces = readColumns(output)

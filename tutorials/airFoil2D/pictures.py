@@ -12,7 +12,7 @@ nose = (-20, -10, -3, 3.5)
 tail = (12, 22, -1, 5.5)
 pressure = dict(field="p", range=(-500, 500), lines=False)
 
-for name, case in (("before", here), ("after", here / "work/pitched10")):
+for name, case in (("before", here), ("after", here / "runs/pitched10")):
     output = here / "results"
     picture(case, output / f"mesh.{name}.png", box=whole)
     picture(case, output / f"nose.{name}.png", box=nose)
