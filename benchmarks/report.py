@@ -202,14 +202,15 @@ def phase_table(data):
 
 
 def memory_table(data):
-    """Growth of the peak memory by the longest run of each algorithm."""
+    """Growth of memory by the longest run of each algorithm."""
     rows = []
     for name, title in SETS.items():
         ends = data[name]["ends"]
         rows.append([title] + [
-            f"{ends[a]['memoryMB']:.1f} MB ({ends[a]['selected']})"
+            f"{ends[a]['peakMB']:.1f} / {ends[a]['keptMB']:.1f} MB "
+            f"({ends[a]['selected']})"
             if a in ends else "–" for a in COLOURS])
-    return table(["set (points selected)"] + list(COLOURS), rows)
+    return table(["memory: peak / kept afterwards (points)"] + list(COLOURS), rows)
 
 
 def count_text(data):

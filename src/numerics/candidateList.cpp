@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <functional>
+#include <unordered_set>
 
 namespace morph
 {
@@ -59,7 +60,7 @@ public:
         {
             return true;
         }
-        std::array<double, 3> key;
+        Key key;
         for (int a = 0; a < 3; ++a)
         {
             key[a] = std::floor(x[a]/cell_);
@@ -69,8 +70,23 @@ public:
 
 private:
 
+    using Key = std::array<double, 3>;
+
+    struct Hash
+    {
+        std::size_t operator()(const Key& key) const
+        {
+            std::size_t h = 0;
+            for (const double k : key)
+            {
+                h = 31*h + std::hash<double>()(k);
+            }
+            return h;
+        }
+    };
+
     double cell_;
-    std::set<std::array<double, 3>> taken_;
+    std::unordered_set<Key, Hash> taken_;
 };
 
 } // namespace
@@ -101,21 +117,39 @@ std::vector<Listed> candidateList
     double& outside
 )
 {
-    // A heap gives the worst first without sorting all of them
-    std::vector<Index> heap;
+    // A heap gives the worst first without sorting all of them. Without cells
+    // one knows how many it takes
+    struct Bad
+    {
+        double error;
+        Index index;
+    };
+    std::vector<Bad> heap;
+    heap.reserve(candidates.size());
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
         if (errors.available[i] && errors.norms[i] > least)
         {
-            heap.push_back(i);
+            heap.push_back({errors.norms[i], Index(i)});
         }
     }
-    const auto better = [&](Index a, Index b)
+    const auto better = [&](const Bad& a, const Bad& b)
     {
-        return errors.norms[a] != errors.norms[b]
-          ? errors.norms[a] < errors.norms[b]
-          : before(candidates[b].position, candidates[a].position);
+        return a.error != b.error
+          ? a.error < b.error
+          : before(candidates[b.index].position, candidates[a.index].position);
     };
+    if (!(cell > 0) && length + 1 < Index(heap.size()))
+    {
+        std::nth_element
+        (
+            heap.begin(),
+            heap.begin() + length,
+            heap.end(),
+            [&](const Bad& a, const Bad& b) { return better(b, a); }
+        );
+        heap.resize(length + 1);
+    }
     std::make_heap(heap.begin(), heap.end(), better);
 
     std::vector<double> mine;
@@ -123,7 +157,7 @@ std::vector<Listed> candidateList
     for (Index n = 0; n <= length && !heap.empty(); )
     {
         std::pop_heap(heap.begin(), heap.end(), better);
-        const Index i = heap.back();
+        const Index i = heap.back().index;
         heap.pop_back();
         if (thinning.first(candidates[i].position))
         {

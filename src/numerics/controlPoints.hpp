@@ -53,8 +53,16 @@ struct ControlPoint
     // The residual g - C^T s, in three components of which k count
     Vector3 residual(const Vector3& s) const
     {
+        // Of fixed sizes, which cost a fraction of a product of variable size
+        if (k == 3)
+        {
+            return value - s;
+        }
         Vector3 r = Vector3::Zero();
-        r.head(k) = g() - C().transpose()*s;
+        for (int i = 0; i < k; ++i)
+        {
+            r[i] = value[i] - directions.col(i).dot(s);
+        }
         return r;
     }
 };

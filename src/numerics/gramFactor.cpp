@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace morph
 {
@@ -23,12 +24,17 @@ void append(Columns& x, const ControlPoints& points)
 }
 
 
-// Cholesky factor; false where the matrix is not positive definite
-bool cholesky(const Matrix& a, Matrix& lower)
+// Replaces the lower triangle by its Cholesky factor, without a copy; false where
+// the matrix is not positive definite
+bool factorise(Matrix& a)
 {
-    const Eigen::LLT<Matrix> llt(a);
-    lower = llt.matrixL();
-    return llt.info() == Eigen::Success && lower.allFinite();
+    const Eigen::LLT<Eigen::Ref<Matrix>> llt(a);
+    bool finite = llt.info() == Eigen::Success;
+    for (Index j = 0; finite && j < a.cols(); ++j)
+    {
+        finite = a.col(j).tail(a.rows() - j).allFinite();
+    }
+    return finite;
 }
 
 
@@ -353,7 +359,8 @@ bool GramFactor::appendPrescribed
     Matrix& l
 )
 {
-    if (!cholesky(T, l))
+    l = T;
+    if (!factorise(l))
     {
         return false;
     }
@@ -367,12 +374,12 @@ bool GramFactor::appendPrescribed
             l.triangularView<Eigen::Lower>().solve(TS.transpose());
         Matrix TSS = T_.view();
         subtractSquare(TSS, rows);
-        Matrix R;
-        if (!cholesky(constrained(TSS, sliding_, sliding_, true), R))
+        Matrix R = constrained(TSS, sliding_, sliding_, true);
+        if (!factorise(R))
         {
             return false;
         }
-        R_.set(R);
+        R_.set(std::move(R));
         T_.view() = TSS;
         Y_.grow(n + m, nS);
         Y_.view().bottomRows(m) = rows;
@@ -398,13 +405,12 @@ bool GramFactor::appendSliding
     const Index m = points.size();
     Matrix D = constrained(T, points, points, true);
     subtractSquare(D, X);
-    Matrix r;
-    if (!cholesky(D, r))
+    if (!factorise(D))
     {
         return false;
     }
 
-    R_.append(X.transpose(), r);
+    R_.append(X.transpose(), D);
     Y_.grow(xM_.rows(), n + m);
     Y_.view().rightCols(m) = Y;
     T_.grow(n + m, n + m);

@@ -118,8 +118,8 @@ public:
     // only where the error exceeds the tolerance.
     //
     // Throws std::invalid_argument where a value is not finite or the candidates
-    // cannot carry the polynomial asked for, std::runtime_error where memory does not suffice;
-    // on all ranks alike.
+    // cannot carry the polynomial asked for, std::runtime_error where memory
+    // does not suffice; on all ranks alike.
     //
     // An observer, if there is one, has to be there on all ranks.
     SelectionResult select

@@ -28,7 +28,9 @@ public:
     {
         const auto room = [](Index needed, Index there)
         {
-            return needed <= there ? there : std::max(needed, there*5/4 + 16);
+            return
+                needed <= there ? there
+              : std::max(needed, there + there/16 + 16);
         };
         store_.conservativeResize
         (

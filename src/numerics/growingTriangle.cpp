@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include <utility>
+
 namespace morph
 {
 
@@ -34,10 +36,11 @@ void GrowingTriangle::append(const Matrix& left, const Matrix& corner)
 }
 
 
-void GrowingTriangle::set(const Matrix& lower)
+void GrowingTriangle::set(Matrix lower)
 {
     size_ = lower.rows();
-    panels_.assign(1, lower);
+    panels_.clear();
+    panels_.push_back(std::move(lower));
 }
 
 

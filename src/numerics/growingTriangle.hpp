@@ -22,8 +22,8 @@ public:
     // lower triangle is looked at
     void append(const Matrix& left, const Matrix& corner);
 
-    // Replaces everything
-    void set(const Matrix& lower);
+    // Replaces everything; again the lower triangle counts
+    void set(Matrix lower);
 
     // L^-1 b
     Matrix solved(Matrix b) const;

@@ -186,7 +186,10 @@ std::vector<bool> IncrementalSystem::append
     const std::vector<Index>& chosen
 )
 {
-    return factor_.append(points_, chosen, residual_);
+    const std::vector<bool> in = factor_.append(points_, chosen, residual_);
+    // As large as the factors themselves, and of no use any more
+    residual_ = GramFactor::Residual();
+    return in;
 }
 
 
