@@ -184,3 +184,46 @@ def test_by_default_a_tiny_first_step_does_not_let_every_point_move_alone(
     assert (alone, candidates) == (12*13, 2*13*13)
     selected, _ = tiny(tmp_path/"default", "greedy { tolerance 1e-2; }")
     assert selected < 100
+
+
+# --- the algorithms
+
+
+BEND = ("supportRadius 1;" + groups(
+    lid="type moving; patches (zMax); displacement { type polyline;"
+        " vertices ((0 0 1) (0.5 0 1) (1 0 1));"
+        " values ((0 0 0.1) (0 0 0) (0.05 0 0.1)); }",
+    rest="type fixed; patches (zMin);",
+    walls='type sliding; patches ("[xy].*");'))
+
+
+def test_the_algorithms_give_one_mesh_where_points_are_added_one_by_one(
+        tmp_path):
+    meshes, counts = {}, set()
+    for name, entries in (
+            ("incremental", "pointsPerSweep 1;"), ("standard", ""),
+            ("schur", "restartFraction 0.2;")):
+        case = rbf_case(tmp_path/name, coeffs=BEND + "greedy { tolerance 1e-2;"
+                        f" algorithm {name}; {entries} }}", cells=(6, 6, 6))
+        counts.add(selections(case.run("moveDynamicMesh"))[0][0])
+        meshes[name] = case.points("1/polyMesh/points")
+    assert len(counts) == 1
+    for name in ("standard", "schur"):
+        np.testing.assert_allclose(
+            meshes[name], meshes["incremental"], rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("entries, word", [
+    ("algorithm standard; pointsPerSweep 2;", "pointsPerSweep"),
+    ("algorithm incremental; restartFraction 0.1;", "restartFraction"),
+    ("algorithm schur; restartFraction -1;", "restartFraction")])
+def test_an_entry_of_another_algorithm_is_an_error(tmp_path, entries, word):
+    case = rbf_case(tmp_path, coeffs=BEND + f"greedy {{ {entries} }}")
+    assert f"'{word}'" in case.run("moveDynamicMesh", status=1)
+
+
+def test_a_reference_algorithm_without_polynomial_says_which_has_one(tmp_path):
+    case = rbf_case(tmp_path, coeffs=BEND + "polynomial linear;"
+                    " greedy { algorithm schur; }")
+    assert "algorithm incremental does" in case.run(
+        "moveDynamicMesh", status=1)
