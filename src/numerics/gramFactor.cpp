@@ -460,8 +460,11 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
         for (Index i = 0; i < nS; ++i)
         {
             const ControlPoint& p = sliding_[i];
-            g.middleRows(offset[i], p.k) =
-                p.residual(known.row(i).transpose()).head(p.k);
+            const Vector3 rest = p.residual(known.row(i).transpose());
+            for (int a = 0; a < p.k; ++a)
+            {
+                g(offset[i] + a, 0) = rest[a];
+            }
         }
         const Matrix alpha = R_.solvedTransposed(R_.solved(g));
         for (Index i = 0; i < nS; ++i)
