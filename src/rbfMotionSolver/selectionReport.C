@@ -81,7 +81,8 @@ void Foam::selectionReport::warnOfTolerance
     const scalar supportRadius
 ) const
 {
-    if (!result.converged() && !settings_.selection.all)
+    const bool incomplete = result.rejected > 0 || !settings_.selection.all;
+    if (!result.converged() && incomplete)
     {
         WarningInFunction
             << "The largest error, " << result.largestError

@@ -227,3 +227,15 @@ def test_a_reference_algorithm_without_polynomial_says_which_has_one(tmp_path):
                     " greedy { algorithm schur; }")
     assert "algorithm incremental does" in case.run(
         "moveDynamicMesh", status=1)
+
+
+def test_points_that_even_selection_all_leaves_out_are_announced(tmp_path):
+    """1e-9 apart and told to part: the system with both is singular."""
+    case = rbf_case(tmp_path, coeffs="supportRadius 1; selection all;" + groups(
+        pair="type moving; points ((0.37 0.41 0.43) (0.370000001 0.41 0.43));"
+             " displacement { type values;"
+             " values ((0 0 0.01) (0 0 0.012)); }",
+        rest='type fixed; patches (".*");'))
+    output = case.run("moveDynamicMesh")
+    assert "1 control points are too close" in output
+    assert "Reduce the support radius" in output
