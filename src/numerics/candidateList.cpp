@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 #include <unordered_set>
 
 namespace morph
@@ -199,6 +203,65 @@ std::vector<Listed> candidateList
         list.push_back(entry);
     }
     return list;
+}
+
+
+std::vector<Listed> candidatesAt
+(
+    const ControlPoints& candidates,
+    const std::vector<Vector3>& positions,
+    Communicator& communicator
+)
+{
+    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)>
+        wanted(before);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+        wanted.emplace(positions[i], i);
+    }
+
+    std::vector<double> mine;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+        if (wanted.count(candidates[i].position))
+        {
+            pack
+            (
+                mine,
+                {
+                    candidates[i], Vector3::Zero(), 0,
+                    communicator.rank(), Index(i)
+                }
+            );
+        }
+    }
+
+    const std::vector<double> all = communicator.gather(mine);
+    std::vector<Listed> found(positions.size());
+    std::vector<char> there(positions.size(), 0);
+    for (std::size_t i = 0; i < all.size(); i += packedSize)
+    {
+        const Listed entry = unpack(&all[i]);
+        const Index at = wanted.at(entry.point.position);
+        if (!there[at] || entry.point.k > found[at].point.k)
+        {
+            found[at] = entry;
+            there[at] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+        const Vector3& x = positions[i];
+        if (!there[i])
+        {
+            std::ostringstream message;
+            message.precision(std::numeric_limits<double>::max_digits10);
+            message << "no control point at (" << x.transpose() << "), or it "
+                "is named twice";
+            throw std::invalid_argument(message.str());
+        }
+    }
+    return found;
 }
 
 } // namespace morph

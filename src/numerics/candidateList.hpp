@@ -45,6 +45,18 @@ std::vector<Listed> candidateList
     double& outside
 );
 
+// The candidates of all ranks at the given positions, to the last bit, in that
+// order: the same on every rank whatever the distribution. Of several at one
+// position the one with most conditions. Residuals and errors are not set.
+// Throws std::invalid_argument, on all ranks, where a position has none;
+// collective.
+std::vector<Listed> candidatesAt
+(
+    const ControlPoints& candidates,
+    const std::vector<Vector3>& positions,
+    Communicator& communicator
+);
+
 } // namespace morph
 
 #endif

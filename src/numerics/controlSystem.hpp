@@ -44,7 +44,8 @@ public:
     }
 
     // Appends what was chosen from the list and tells which of it is in: points
-    // with which the system would be singular to round-off are left out.
+    // with which the system would be singular to round-off are left out. After
+    // choose() it must be the list chosen from.
     virtual std::vector<bool> append
     (
         const std::vector<Listed>& list,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace morph
@@ -164,6 +165,88 @@ std::vector<Index> GreedySelection::selected() const
 }
 
 
+std::vector<Vector3> GreedySelection::selectedPositions() const
+{
+    return positions_;
+}
+
+
+void GreedySelection::restore
+(
+    const std::vector<Vector3>& positions,
+    const ControlPoints& candidates,
+    Communicator& communicator
+)
+{
+    largestValue(candidates, communicator);
+    std::vector<Listed> points =
+        candidatesAt(candidates, positions, communicator);
+
+    // Those that carry the polynomial are found again
+    start(candidates, communicator);
+    const auto isNode = [this](const Listed& entry)
+    {
+        return std::find
+        (
+            positions_.begin(), positions_.end(), entry.point.position
+        ) != positions_.end();
+    };
+    const Index nNodes = positions_.size();
+    if (nNodes > 0)
+    {
+        points.erase
+        (
+            std::remove_if(points.begin(), points.end(), isNode), points.end()
+        );
+    }
+
+    // Prescribed points first: then nothing is ever factorised anew
+    std::stable_partition
+    (
+        points.begin(),
+        points.end(),
+        [](const Listed& entry) { return !entry.point.slides(); }
+    );
+    appendBlocks(points, communicator.rank());
+    system_->solve(interpolant_);
+}
+
+
+void GreedySelection::appendBlocks
+(
+    const std::vector<Listed>& points,
+    int rank
+)
+{
+    const std::size_t block =
+        settings_.algorithm == Algorithm::incremental ? blockOfAll : 1;
+    for (std::size_t i = 0; i < points.size(); i += block)
+    {
+        const std::vector<Listed> list
+        (
+            points.begin() + i,
+            points.begin() + std::min(points.size(), i + block)
+        );
+        std::vector<Index> all(list.size());
+        std::iota(all.begin(), all.end(), Index(0));
+        const std::vector<bool> in = system_->append(list, all);
+        for (std::size_t j = 0; j < list.size(); ++j)
+        {
+            if (in[j])
+            {
+                take(list[j], rank);
+                continue;
+            }
+
+            // Kinds of points are in or out together: one by one it is only
+            // those that are in the way
+            const std::vector<bool> alone = system_->append(list, {Index(j)});
+            alone[0] ? take(list[j], rank) : reject(list[j], rank);
+        }
+    }
+}
+
+
 SelectionResult GreedySelection::select
 (
     const ControlPoints& candidates,
@@ -278,7 +361,9 @@ void GreedySelection::start
 )
 {
     origins_.clear();
+    positions_.clear();
     values_.clear();
+    rejected_ = 0;
     const Index n = candidates.size();
     Vectors x(n, 3);
     for (Index i = 0; i < n; ++i)
@@ -425,6 +510,7 @@ double GreedySelection::cellSize(const Listed& worst) const
 void GreedySelection::take(const Listed& entry, int rank)
 {
     origins_.push_back({entry.rank, entry.index});
+    positions_.push_back(entry.point.position);
     values_.push_back(entry.point.value);
     if (entry.rank == rank)
     {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace morph
 {
@@ -129,6 +130,26 @@ public:
         const Observer& observer = Observer()
     );
 
+    // Where the points are that are selected, in the order of the system: the
+    // same on every rank
+    std::vector<Vector3> selectedPositions() const;
+
+    // Makes the system anew with the points at the given positions, each that
+    // of a candidate, and nothing else, and solves it. Which points there are
+    // and in which order decides every bit of the result; not how they were
+    // selected, nor the distribution of the candidates. Hence
+    // restore(selectedPositions()) brings a selection into the state that a
+    // new one has after restore() with the same positions.
+    //
+    // Throws as select() does, and std::invalid_argument where there is no
+    // candidate at a position; on all ranks alike. Collective.
+    void restore
+    (
+        const std::vector<Vector3>& positions,
+        const ControlPoints& candidates,
+        Communicator& communicator
+    );
+
     // The outcome of the last selection
     const RbfInterpolant& interpolant() const { return interpolant_; }
 
@@ -155,6 +176,7 @@ private:
     void makeSystem(const ControlPoints& candidates, Communicator& c);
     void refreshValues(const ControlPoints& candidates, Communicator& c);
     void sweep(const ControlPoints& candidates);
+    void appendBlocks(const std::vector<Listed>& points, int rank);
     bool addPoints
     (
         const ControlPoints& candidates,
@@ -183,6 +205,7 @@ private:
 
     // What is selected, in the order of the system
     std::vector<Origin> origins_;
+    std::vector<Vector3> positions_;
     std::vector<Vector3> values_;
 
     Errors errors_;

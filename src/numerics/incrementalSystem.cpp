@@ -182,13 +182,23 @@ ControlSystem::Choice IncrementalSystem::choose
 
 std::vector<bool> IncrementalSystem::append
 (
-    const std::vector<Listed>&,
+    const std::vector<Listed>& list,
     const std::vector<Index>& chosen
 )
 {
+    if (points_.empty())
+    {
+        ControlPoints points;
+        for (const Index i : chosen)
+        {
+            points.push_back(list[i].point);
+        }
+        return factor_.append(points);
+    }
     const std::vector<bool> in = factor_.append(points_, chosen, residual_);
     // As large as the factors themselves, and of no use any more
     residual_ = GramFactor::Residual();
+    points_.clear();
     return in;
 }
 

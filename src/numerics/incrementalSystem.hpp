@@ -56,7 +56,7 @@ private:
     Index nNodes_;
     GramFactor factor_;
 
-    // Of the list last chosen from
+    // Of the list last chosen from, until something of it is appended
     ControlPoints points_;
     GramFactor::Residual residual_;
 };

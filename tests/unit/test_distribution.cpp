@@ -347,6 +347,65 @@ TEST(Distribution, doesNotMatterWherePointsAreRejected)
 }
 
 
+TEST(Distribution, doesNotMatterWhereASelectionIsRestored)
+{
+    Random random(93);
+    const ControlPoints candidates =
+        displaced(randomControlPoints(random, {3, 200, 120, 40}), 4);
+    std::vector<Vector3> positions;
+    for (std::size_t i = 0; i < candidates.size(); i += 2)
+    {
+        positions.push_back(candidates[i].position);
+    }
+    const Kernel kernel(KernelType::wendlandC2, 0.5);
+    for (const Polynomial polynomial : {Polynomial::none, Polynomial::linear})
+    {
+        Columns serial(0, 3);
+        std::vector<Vector3> order;
+        for (const NamedDeal& deal : deals(candidates))
+        {
+            std::vector<Columns> weights(deal.ranks);
+            std::vector<std::vector<Vector3>> orders(deal.ranks);
+            onRanks
+            (
+                deal.ranks,
+                [&](Communicator& communicator)
+                {
+                    const int rank = communicator.rank();
+                    ControlPoints mine;
+                    for (std::size_t i = 0; i < candidates.size(); ++i)
+                    {
+                        if (deal.deal[i] == rank)
+                        {
+                            mine.push_back(candidates[i]);
+                        }
+                    }
+                    GreedySelection selection
+                    (
+                        kernel, polynomial, settingsOf(1e-2)
+                    );
+                    selection.restore(positions, mine, communicator);
+                    weights[rank] = selection.interpolant().weights();
+                    orders[rank] = selection.selectedPositions();
+                }
+            );
+            if (serial.rows() == 0)
+            {
+                serial = weights[0];
+                order = orders[0];
+                EXPECT_GE(order.size(), positions.size());
+            }
+            for (int rank = 0; rank < deal.ranks; ++rank)
+            {
+                SCOPED_TRACE(deal.name);
+                EXPECT_TRUE(sameBits(weights[rank], serial));
+                EXPECT_EQ(orders[rank], order);
+            }
+        }
+    }
+}
+
+
 TEST(Distribution, everyRankRefusesWhatOneWouldRefuse)
 {
     // Moving points on one rank, sliding ones on the other
