@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -148,6 +149,24 @@ Vectors GreedySelection::residuals(const ControlPoints& candidates) const
             errors_.residuals.row(i).head(p.k)*p.C().transpose();
     }
     return r;
+}
+
+
+Vectors GreedySelection::weights(const ControlPoints& candidates) const
+{
+    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)>
+        rowOf(before);
+    for (Index j = 0; j < interpolant_.centres().rows(); ++j)
+    {
+        rowOf.emplace(interpolant_.centres().row(j).transpose(), j);
+    }
+    Vectors gamma = Vectors::Zero(candidates.size(), 3);
+    for (const Index i : selected())
+    {
+        gamma.row(i) =
+            interpolant_.weights().row(rowOf.at(candidates[i].position));
+    }
+    return gamma;
 }
 
 

@@ -160,6 +160,9 @@ public:
     // selection: n x 3 [m]
     Vectors residuals(const ControlPoints& candidates) const;
 
+    // gamma of this rank's candidates, zero for those not selected: n x 3 [m]
+    Vectors weights(const ControlPoints& candidates) const;
+
     // Indices of this rank's candidates that are selected
     std::vector<Index> selected() const;
 

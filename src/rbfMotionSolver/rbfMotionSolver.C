@@ -511,6 +511,46 @@ void Foam::rbfMotionSolver::solve()
 }
 
 
+Foam::List<Foam::controlShape> Foam::rbfMotionSolver::shapes() const
+{
+    controlShape shape;
+    shape.name = "controlPoints";
+    shape.points.setSize(selection_ ? controlPoints_->candidates().size() : 0);
+    const label n = shape.points.size();
+    scalarField conditions(n), selected(n, Zero), error(n);
+    vectorField displacement(n), weight(n);
+    if (selection_)
+    {
+        const morph::ControlPoints& candidates = controlPoints_->candidates();
+        const morph::Vectors gamma(selection_->weights(candidates));
+        for (label i = 0; i < n; ++i)
+        {
+            const morph::ControlPoint& p = candidates[i];
+            const label pointi = controlPoints_->candidatePoints()[i];
+            displacement[i] =
+                pointi < 0
+              ? toFoam(p.C()*p.g())
+              : pointDisplacement_.primitiveField()[pointi];
+            shape.points[i] = displacement[i]
+              + (pointi < 0 ? toFoam(p.position) : points0()[pointi]);
+            conditions[i] = p.k;
+            error[i] = selection_->errors()[i];
+            weight[i] = toFoam(gamma.row(i).transpose());
+        }
+        for (const morph::Index i : selection_->selected())
+        {
+            selected[i] = 1;
+        }
+    }
+    shape.scalars.insert("conditions", conditions);
+    shape.scalars.insert("selected", selected);
+    shape.scalars.insert("error", error);
+    shape.vectors.insert("displacement", displacement);
+    shape.vectors.insert("weight", weight);
+    return List<controlShape>(1, shape);
+}
+
+
 void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
 {
     displacementMotionSolver::updateMesh(map);

@@ -13,9 +13,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAY_INCLUDE = {
     "numerics": [],
     "foam": ["numerics"],
+    "controlGeometry": [],
     "meshValidity": ["foam"],
     "motion": ["foam", "numerics"],
-    "rbfMotionSolver": ["motion", "meshValidity", "foam", "numerics"],
+    "rbfMotionSolver": ["motion", "meshValidity", "controlGeometry", "foam",
+                        "numerics"],
 }
 
 

@@ -1,0 +1,115 @@
+"""Function object motionControls: control points as VTK files.
+
+Source of truth: the displacement that was prescribed, and the definition of the
+interpolant, s(x) = sum_j phi(|x - x_j|/r0) gamma_j with Wendland's C2.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import rbfCase
+
+RADIUS = 1.5
+
+
+def read_vtk(path):
+    """Points and point data of a legacy ASCII file."""
+    words = path.read_text().split()
+    at = words.index("POINTS")
+    n = int(words[at + 1])
+    points = np.array(words[at + 3:at + 3 + 3*n], float).reshape(n, 3)
+    at = words.index("FIELD")
+    data, count = {}, int(words[at + 2])
+    at += 3
+    for _ in range(count):
+        name, width = words[at], int(words[at + 1])
+        values = np.array(words[at + 4:at + 4 + width*n], float)
+        data[name] = values.reshape(n, width) if width > 1 else values
+        at += 4 + width*n
+    return points, data
+
+
+def controlled_case(path, functions, **ranks):
+    case = rbfCase.rbf_case(
+        path, coeffs=f"supportRadius {RADIUS};\n" + rbfCase.groups(
+            top="type moving; patches (zMax);"
+                " displacement { type uniform; value (0.01 0 0.05); }",
+            bottom="type fixed; patches (zMin);",
+            walls='type sliding; patches ("[xy].*");',
+            probe="type moving; points ((0.5 0.5 0.45));"
+                  " displacement { type values; values ((0 0 0.03)); }"))
+    control = (case.path/"system/controlDict").read_text()
+    (case.path/"system/controlDict").write_text(
+        control + f"functions {{ controls {{ type motionControls;"
+        f" libs (morphMotionSolvers); {functions} }} }}\n")
+    return case
+
+
+@pytest.fixture(scope="module")
+def shown(tmp_path_factory):
+    case = controlled_case(tmp_path_factory.mktemp("controls"),
+                           "writeControl writeTime;")
+    moved = rbfCase.move(case)
+    return case, moved, *read_vtk(
+        case.path/"postProcessing/controls/1/controlPoints.vtk")
+
+
+def test_control_points_are_where_they_went(shown):
+    case, moved, points, data = shown
+    before = points - data["displacement"]
+    top = before[:, 2] > 1 - 1e-9
+    assert top.sum() == 25
+    np.testing.assert_allclose(
+        data["displacement"][top], [[0.01, 0, 0.05]]*25, atol=1e-15)
+    # All but the listed one are mesh points
+    off = [x for x in points if np.abs(moved - x).max(axis=1).min() > 1e-14]
+    np.testing.assert_allclose(off, [[0.5, 0.5, 0.48]], atol=1e-14)
+
+
+def test_kinds_are_told(shown):
+    _, _, points, data = shown
+    before = points - data["displacement"]
+    on_wall = (np.abs(before[:, :2] - 0.5) > 0.5 - 1e-9)
+    inside = (before[:, 2] > 1e-9) & (before[:, 2] < 1 - 1e-9)
+    expected = np.where(inside & on_wall.all(axis=1), 2,
+                        np.where(inside & on_wall.any(axis=1), 1, 3))
+    np.testing.assert_array_equal(data["conditions"], expected)
+
+
+def test_weights_make_the_field(shown):
+    _, moved, points, data = shown
+    centres = points - data["displacement"]
+    selected = data["selected"] == 1
+    assert 10 < selected.sum() < len(selected)
+    assert not data["weight"][~selected].any()
+    x = moved[np.abs(moved - [0.5, 0.5, 0.5]).max(axis=1) < 0.2]
+    assert len(x) == 1
+    r = np.linalg.norm([0.5, 0.5, 0.5] - centres, axis=1)/RADIUS
+    phi = np.where(r < 1, (1 - r)**4*(4*r + 1), 0)
+    np.testing.assert_allclose(
+        x[0] - [0.5, 0.5, 0.5], phi @ data["weight"], atol=1e-14)
+
+
+def test_ranks_show_the_same(shown, tmp_path):
+    _, _, points, data = shown
+    case = controlled_case(tmp_path/"parallel", "writeControl writeTime;")
+    case.decompose((2, 1, 1))
+    case.run("moveDynamicMesh", ranks=2)
+    x, values = read_vtk(
+        case.path/"postProcessing/controls/1/controlPoints.vtk")
+    order, reference = np.lexsort(x.T), np.lexsort(points.T)
+    np.testing.assert_array_equal(x[order], points[reference])
+    for name in data:
+        np.testing.assert_array_equal(
+            values[name][order], data[name][reference])
+
+
+def test_a_mesh_without_our_solver_is_a_warning(tmp_path):
+    case = controlled_case(tmp_path/"other", "writeControl writeTime;")
+    case.write("constant/dynamicMeshDict", "dictionary",
+               "dynamicFvMesh staticFvMesh;")
+    output = case.run("moveDynamicMesh")
+    assert re.search("has no motion solver that could", output)
+    assert not (case.path/"postProcessing/controls").exists()
