@@ -94,6 +94,41 @@ static point worstOf
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::invalidMotion::addCellsOf
+(
+    const bitSet& faces,
+    const polyMesh& mesh,
+    const movedGeometry& geometry
+)
+{
+    const auto wrong = [&](const label facei, const label celli, const int sign)
+    {
+        const vector out
+        (
+            geometry.faceCentres()[facei] - geometry.cellCentres()[celli]
+        );
+        return !(sign*(geometry.faceAreas()[facei] & out) > 0);
+    };
+
+    for (const label facei : faces)
+    {
+        const label own = mesh.faceOwner()[facei];
+        if (wrong(facei, own, 1))
+        {
+            cells_.set(own);
+        }
+        if (mesh.isInternalFace(facei))
+        {
+            const label nei = mesh.faceNeighbour()[facei];
+            if (wrong(facei, nei, -1))
+            {
+                cells_.set(nei);
+            }
+        }
+    }
+}
+
+
 void Foam::invalidMotion::check
 (
     const polyMesh& mesh,
@@ -123,6 +158,10 @@ void Foam::invalidMotion::check
         faces -= geometry::nonPositive(before.syncedPyramidVolumes());
         cells -= geometry::nonPositive(before.cellVolumes());
     }
+
+    cells_ = cells;
+    cells_.resize(mesh.nCells());
+    addCellsOf(faces, mesh, after);
 
     faces &= syncTools::getMasterFaces(mesh);
 

@@ -23,16 +23,6 @@ License
 #include "FlatOutput.H"
 #include "unitConversion.H"
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::rbfMotionSettings::invalidMesh>
-Foam::rbfMotionSettings::invalidMeshNames
-({
-    { invalidMesh::error, "error" },
-    { invalidMesh::ignore, "ignore" }
-});
-
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -245,10 +235,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     }
     settings.featureAngle = degToRad(degrees);
 
-    settings.onInvalidMesh = dictionaryChecks::getChoice
-    (
-        dict, "onInvalidMesh", invalidMeshNames, invalidMesh::error
-    );
+    settings.onInvalidMesh = motionLimiter::readPolicy(dict);
     return settings;
 }
 

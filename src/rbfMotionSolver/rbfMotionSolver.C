@@ -24,11 +24,11 @@ License
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
-#include "invalidMotion.H"
 #include "localIOdictionary.H"
 #include "pointFields.H"
 #include "processorCyclicPolyPatch.H"
 #include "pstreamCommunicator.H"
+#include "StringStream.H"
 #include "syncTools.H"
 
 #include <limits>
@@ -443,22 +443,16 @@ void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
 }
 
 
-void Foam::rbfMotionSolver::check(const vectorField& displacement) const
+void Foam::rbfMotionSolver::limit(vectorField& displacement) const
 {
-    if (settings_.onInvalidMesh == rbfMotionSettings::invalidMesh::ignore)
-    {
-        return;
-    }
-    const invalidMotion invalid(mesh(), points0(), points0() + displacement);
-    if (!invalid.empty())
-    {
-        FatalIOErrorInFunction(coeffDict())
-            << "The motion makes the mesh invalid: " << invalid << nl
-            << "    The mesh is left as it was. Make the motion smaller, the"
-            << " support radius (" << supportRadius_ << " m) larger, or let"
-            << nl << "    more patches slide; 'onInvalidMesh ignore' moves the"
-            << " mesh all the same" << nl << exit(FatalIOError);
-    }
+    OStringStream remedy;
+    remedy
+        << "Make the motion smaller, the support radius (" << supportRadius_
+        << " m) larger, or let more patches slide";
+    motionLimiter(mesh(), coeffDict(), settings_.onInvalidMesh).apply
+    (
+        points0(), displacement, remedy.str()
+    );
 }
 
 
@@ -494,9 +488,9 @@ void Foam::rbfMotionSolver::solve()
     {
         select();
         clockTime timer;
-        const tmp<vectorField> displacement(propagate());
+        vectorField displacement(propagate());
         const scalar propagation = timer.timeIncrement();
-        check(displacement());
+        limit(displacement);
         pointDisplacement_.primitiveFieldRef() = displacement;
         if (debug)
         {

@@ -126,3 +126,9 @@ class FoamCase:
                 hashlib.sha1(path.read_bytes()).hexdigest()
             if path.is_file() else "folder"
             for path in self.path.rglob("*")}
+
+    def tree_without_reports(self):
+        """The same without what a refused motion reports: no mesh file."""
+        reports = ("/polyMesh/sets", "postProcessing", "/invalidMotionCells")
+        return {file: content for file, content in self.tree().items()
+                if not any(report in file for report in reports)}

@@ -14,7 +14,7 @@ MAY_INCLUDE = {
     "numerics": [],
     "foam": ["numerics"],
     "controlGeometry": [],
-    "meshValidity": ["foam"],
+    "meshValidity": ["foam", "numerics"],
     "motion": ["foam", "numerics"],
     "rbfMotionSolver": ["motion", "meshValidity", "controlGeometry", "foam",
                         "numerics"],

@@ -1,0 +1,219 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "motionLimiter.H"
+#include "dictionaryChecks.H"
+#include "motionRecord.H"
+#include "validFraction.H"
+#include "cellSet.H"
+#include "foamVtkSurfaceWriter.H"
+#include "OSspecific.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::motionLimiter::policy>
+Foam::motionLimiter::policyNames
+({
+    { policy::error, "error" },
+    { policy::limit, "limit" },
+    { policy::ignore, "ignore" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static void writeCellSet(const polyMesh& mesh, const bitSet& cells)
+{
+    cellSet set(mesh, "invalidMotionCells", label(cells.count()));
+    for (const label celli : cells)
+    {
+        set.insert(celli);
+    }
+    set.instance() = mesh.facesInstance();
+    set.write();
+    Info<< "    Wrote cellSet " << set.name() << " with "
+        << returnReduce(set.size(), sumOp<label>()) << " cells to "
+        << set.instance()/set.local() << endl;
+}
+
+
+//- The faces of the cells, each cell's by itself, on points of their own
+static void writeCellFaces(const validFraction& fraction)
+{
+    const polyMesh& mesh = fraction.mesh();
+    DynamicList<face> faces;
+    DynamicList<scalar> attainable;
+    DynamicList<label> used;
+    Map<label> place;
+    for (const label celli : fraction.cells())
+    {
+        for (const label facei : mesh.cells()[celli])
+        {
+            face f(mesh.faces()[facei]);
+            for (label& pointi : f)
+            {
+                if (place.insert(pointi, used.size()))
+                {
+                    used.append(pointi);
+                }
+                pointi = place[pointi];
+            }
+            faces.append(f);
+            attainable.append(fraction.cellFractions()[celli]);
+        }
+    }
+
+    const fileName file(motionRecord::folder(mesh)/"invalidCells.vtk");
+    const fileName path(mesh.time().globalPath()/file);
+    if (Pstream::master())
+    {
+        mkDir(path.path());
+    }
+    const pointField points(fraction.reference(), used);
+    const vectorField displacement(fraction.displacement(), used);
+    const faceList list(faces);
+    vtk::surfaceWriter writer
+    (
+        points, list, vtk::formatType::LEGACY_ASCII, path
+    );
+    writer.writeGeometry();
+    writer.beginCellData(1);
+    writer.write("attainable", attainable);
+    writer.beginPointData(1);
+    writer.write("displacement", displacement);
+    writer.close();
+    Info<< "    Wrote " << file.c_str() << endl;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::motionLimiter::motionLimiter
+(
+    const polyMesh& mesh,
+    const dictionary& dict,
+    const policy onInvalidMesh
+)
+:
+    mesh_(mesh),
+    dict_(dict),
+    policy_(onInvalidMesh)
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::motionLimiter::refuse
+(
+    const validFraction& fraction,
+    const string& remedy
+) const
+{
+    motionRecord* record = motionRecord::of(mesh_);
+    if (record)
+    {
+        record->note(fraction, 0);
+        record->write();
+    }
+    FatalIOErrorInFunction(dict_)
+        << "The motion makes the mesh invalid: " << fraction.whole() << nl
+        << "    It is valid up to the fraction " << fraction.value()
+        << " of it, where the first breaks at " << fraction.where() << nl
+        << "    The mesh is left as it was. " << remedy.c_str() << ';' << nl
+        << "    'onInvalidMesh limit' moves the mesh as far as it goes,"
+        << " 'onInvalidMesh ignore' moves it all the same" << nl
+        << exit(FatalIOError);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::motionLimiter::policy Foam::motionLimiter::readPolicy
+(
+    const dictionary& dict
+)
+{
+    return dictionaryChecks::getChoice
+    (
+        dict, "onInvalidMesh", policyNames, policy::error
+    );
+}
+
+
+Foam::scalar Foam::motionLimiter::apply
+(
+    const pointField& reference,
+    vectorField& displacement,
+    const string& remedy
+) const
+{
+    if (policy_ == policy::ignore)
+    {
+        return 1;
+    }
+    const validFraction fraction(mesh_, reference, displacement);
+    if (fraction.stoppedBy() == validFraction::criterion::none)
+    {
+        return 1;
+    }
+
+    report(fraction);
+    if (policy_ == policy::error)
+    {
+        refuse(fraction, remedy);
+    }
+
+    const scalar moved = fraction.withMargin();
+    Info<< "onInvalidMesh limit: the motion is limited to the fraction "
+        << moved << " of it. It is valid up to " << fraction.value()
+        << ", where the first cell breaks at " << fraction.where() << " ("
+        << validFraction::criterionNames[fraction.stoppedBy()]
+        << "); the whole of it makes " << fraction.whole() << endl;
+    motionRecord* record = motionRecord::of(mesh_);
+    if (record)
+    {
+        record->note(fraction, moved);
+    }
+    displacement *= moved;
+    return moved;
+}
+
+
+void Foam::motionLimiter::report(const validFraction& fraction)
+{
+    if (motionRecord::reports(fraction.mesh()))
+    {
+        Info<< "What stops the motion:" << endl;
+        writeCellSet(fraction.mesh(), fraction.cells());
+        writeCellFaces(fraction);
+
+        // Who goes on to an error ends the other ranks: not while they write
+        returnReduce(true, andOp<bool>());
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,136 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "motionRecord.H"
+#include "validFraction.H"
+#include "OFstream.H"
+#include "OSspecific.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(motionRecord, 0);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::motionRecord::motionRecord
+(
+    const polyMesh& mesh,
+    const fileName& folder,
+    const bool reports
+)
+:
+    IOdictionary
+    (
+        IOobject
+        (
+            typeName,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::NO_READ,
+            IOobject::NO_WRITE
+        )
+    ),
+    folder_(folder),
+    reports_(reports)
+{
+    set("attainable", 1);
+    set("moved", 1);
+    set("stoppedBy", validFraction::criterionNames[validFraction::criterion::none]);
+    set("subSteps", 1);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::motionRecord* Foam::motionRecord::of(const polyMesh& mesh)
+{
+    return mesh.thisDb().getObjectPtr<motionRecord>(typeName);
+}
+
+
+Foam::fileName Foam::motionRecord::folder(const polyMesh& mesh)
+{
+    const motionRecord* record = of(mesh);
+    if (record)
+    {
+        return record->folder_;
+    }
+
+    fileName folder("postProcessing");
+    if (mesh.name() != polyMesh::defaultRegion)
+    {
+        folder = folder/mesh.name();
+    }
+    return folder/"invalidMotion"/mesh.time().timeName();
+}
+
+
+bool Foam::motionRecord::reports(const polyMesh& mesh)
+{
+    const motionRecord* record = of(mesh);
+    return !record || record->reports_;
+}
+
+
+void Foam::motionRecord::note
+(
+    const validFraction& fraction,
+    const scalar moved
+)
+{
+    set("attainable", fraction.value());
+    set("moved", moved);
+    set("stoppedBy", validFraction::criterionNames[fraction.stoppedBy()]);
+    if (fraction.stoppedBy() != validFraction::criterion::none)
+    {
+        set("where", fraction.where());
+    }
+}
+
+
+void Foam::motionRecord::write() const
+{
+    if (!reports_)
+    {
+        return;
+    }
+    if (Pstream::master())
+    {
+        const fileName path(time().globalPath()/folder_);
+        mkDir(path);
+        OFstream os(path/"motion");
+        os.precision(17);
+        IOobject header(*this);
+        header.rename("motion");
+        header.writeHeader(os, dictionary::typeName);
+        dictionary::write(os, false);
+        IOobject::writeEndDivider(os);
+    }
+    Info<< "Wrote " << (folder_/"motion").c_str() << endl;
+    returnReduce(true, andOp<bool>());
+}
+
+
+// ************************************************************************* //
