@@ -1,0 +1,19 @@
+"""Sweeps of shapes, each morphed from one baseline and started from its fields.
+
+The command is bin/morphStudy; README.md beside this file has every key of the
+study file. One module per concern:
+
+    expressions   what constraints and derived quantities may say
+    studyFile     reads the study file and says what is wrong with it
+    sampling      factorial, Latin hypercube, Sobol, under constraints
+    designs       the table of designs, which only grows
+    caseFolder    a design's case, from the template or the baseline
+    process       a command with a log, a timeout, and an end
+    responses     numbers from what a run leaves behind
+    worker        one design from folder to outcome
+    sweep         all of them, by Snakemake
+    results       outcomes as one table
+    metamodel     kriging and its leave-one-out error
+    pareto        NSGA-II and the clusters of its front
+    check, sample, status, fit, optimise, report    the verbs
+"""

@@ -1,0 +1,72 @@
+"""The command: morphStudy VERB STUDYFILE [options]."""
+
+import argparse
+import importlib
+import sys
+
+from .errors import StudyError
+
+VERBS = {
+    "check": "is the file right? Nothing is run or written",
+    "sample": "choose the designs, adding to those there are",
+    "run": "run what is not yet finished; killed, say it again",
+    "status": "what is finished, what failed and why, time left",
+    "fit": "kriging of each response, leave-one-out error",
+    "optimise": "Pareto front, clusters, representatives, verification",
+    "report": "one HTML page",
+}
+
+
+def parser():
+    top = argparse.ArgumentParser(
+        prog="morphStudy", description="Sweeps of shapes from one baseline."
+        " Every key of the study file: scripts/morphStudy/README.md")
+    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB")
+    for verb, meaning in VERBS.items():
+        one = verbs.add_parser(verb, help=meaning, description=meaning)
+        one.add_argument("study", metavar="STUDYFILE")
+        if verb in ("run", "fit", "optimise"):
+            one.add_argument("-strategy", help="default: the file's first")
+        if verb in ("run", "optimise", "status"):
+            one.add_argument("-cores", type=int, help="default: all")
+        if verb in ("run", "optimise"):
+            one.add_argument("-profile", help="a profile of Snakemake, for"
+                             " Slurm and the like")
+        if verb == "run":
+            one.add_argument("-only", type=int, nargs="+", default=[],
+                             metavar="ID", help="these designs")
+            one.add_argument("-redo", nargs="+", default=[], metavar="ID",
+                             help="make these again, or those that 'failed'")
+        if verb == "optimise":
+            one.add_argument("-noRuns", action="store_true",
+                             help="do not verify the representatives by runs")
+    return top
+
+
+def redoOf(words):
+    try:
+        return [w if w == "failed" else int(w) for w in words]
+    except ValueError:
+        raise StudyError(f"-redo {' '.join(words)}: give numbers of designs,"
+                         " or failed") from None
+
+
+def main():
+    options = vars(parser().parse_args())
+    verb = options.pop("verb")
+    if verb == "run":
+        options["redo"] = redoOf(options["redo"])
+    # Late, so that what one verb needs does not slow the others
+    from .studyFile import Study
+    study = Study(options.pop("study"))
+    module = importlib.import_module(
+        "." + {"run": "sweep"}.get(verb, verb), __package__)
+    return getattr(module, verb)(study, **options)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except StudyError as error:
+        print(f"Error: {error}", file=sys.stderr)
+        sys.exit(1)

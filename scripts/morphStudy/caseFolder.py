@@ -1,0 +1,145 @@
+"""A design's case: copied from the template or from the baseline's case, with
+the design's parameters in its dictionaries."""
+
+import fnmatch
+import os
+import re
+import shutil
+import subprocess
+
+from .errors import StudyError
+
+LEFT_BEHIND = ("processor*", "postProcessing", "log.*", "*.foam")
+
+
+def isTime(name):
+    try:
+        return float(name) >= 0
+    except ValueError:
+        return False
+
+
+def latestTime(case):
+    """The folder name of the case's largest time, or None. Of a decomposed
+    case, that of its processor folders."""
+    times = [p.name for p in case.iterdir() if p.is_dir() and isTime(p.name)]
+    first = case / "processor0"
+    if first.is_dir():
+        times += [p.name for p in first.iterdir() if isTime(p.name)]
+    return max(times, key=float, default=None)
+
+
+def copyTemplate(study, target):
+    """All of the template but what runs leave behind and the study itself."""
+    def ignore(folder, names):
+        left = set()
+        for name in names:
+            full = os.path.join(folder, name)
+            relative = os.path.relpath(full, study.template)
+            patterns = [*study.exclude]
+            if folder == str(study.template):
+                patterns += LEFT_BEHIND
+            if full == str(study.folder) or any(
+                    fnmatch.fnmatch(name, p) or fnmatch.fnmatch(relative, p)
+                    for p in patterns):
+                left.add(name)
+        return left
+
+    shutil.copytree(study.template, target, symlinks=True, ignore=ignore)
+
+
+def copyCase(source, target):
+    """What a run continues from: everything but logs, what function objects
+    wrote, and the times between 0 and the last."""
+    latest = latestTime(source)
+
+    def ignore(folder, names):
+        top = folder == str(source)
+        if not top and not os.path.basename(folder).startswith("processor"):
+            return set()
+        left = {n for n in names
+                if isTime(n) and float(n) != 0 and n != latest}
+        if top:
+            left |= {n for n in names
+                     if any(fnmatch.fnmatch(n, p)
+                            for p in ("postProcessing", "log.*", "*.foam",
+                                      "picture.png"))}
+        return left
+
+    shutil.copytree(source, target, symlinks=True, ignore=ignore)
+    return latest
+
+
+def replaceFields(source, target):
+    """The last time's fields of one case in place of another's, whose mesh and
+    whose name of the time stay."""
+    cases = [("", source, target)] + [
+        (p.name, p, target / p.name) for p in source.glob("processor*")]
+    for _, source_, target_ in cases:
+        time, own = latestTime(source_), latestTime(target_)
+        if time is None or own is None or not (source_ / time).is_dir():
+            continue
+        folder = target_ / own
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and "polyMesh" not in path.parts:
+                path.unlink()
+        shutil.copytree(source_ / time, folder, dirs_exist_ok=True,
+                        ignore=shutil.ignore_patterns("polyMesh"))
+        # It has the other case's count of time
+        (folder / "uniform/time").unlink(missing_ok=True)
+
+
+def parametersText(study, values):
+    lines = [f"{name:<15} {float(value)!r};\n"
+             for name, value in values.items()]
+    return ("// Written by morphStudy for this design\n" + "".join(lines))
+
+
+def writeParameters(study, case, parameters):
+    """The design's values: the file of parameters, and the entries."""
+    values = study.values(parameters)
+    if study.parametersFile:
+        path = case / study.parametersFile
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(parametersText(study, values))
+    for name, target in study.targets():
+        done = foamDictionary(
+            case, target, "-set", repr(float(values[name])))
+        if done.returncode:
+            raise StudyError(
+                f"{name}: foamDictionary cannot set {target.entry} in"
+                f" {target.file}: {firstError(done.stdout)}")
+
+
+def foamDictionary(case, target, *options):
+    """What foamDictionary says, with #include and macros left as they are."""
+    try:
+        return subprocess.run(
+            ["foamDictionary", "-disableFunctionEntries", "-entry",
+             target.entry, *options, target.file], cwd=case, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    except FileNotFoundError:
+        raise StudyError(
+            "parameters that are entries of dictionaries need foamDictionary,"
+            " which is not on the path. Source OpenFOAM and morphFoam's"
+            " etc/bashrc first") from None
+
+
+def firstError(text):
+    """The message of an OpenFOAM error, in one line."""
+    found = re.search(
+        r"--> FOAM FATAL.*?ERROR:?.*?\n(.*?)\n\s*(?:\n|From|file:)",
+        text, re.DOTALL)
+    lines = [line.strip() for line in
+             (found.group(1) if found else text).splitlines() if line.strip()]
+    return " ".join(lines[:3] if found else lines[-1:])
+
+
+def keywords(case, file, entry):
+    """The keywords of a dictionary of a file, or of the file."""
+    options = ["-entry", entry] if entry else []
+    done = subprocess.run(
+        ["foamDictionary", "-disableFunctionEntries", *options, "-keywords",
+         file], cwd=case, text=True, stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL)
+    return " ".join(done.stdout.split()) if done.returncode == 0 else ""

@@ -1,0 +1,198 @@
+"""The verb check: what can be known to be wrong before anything runs."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from . import caseFolder, sampling
+from .errors import StudyError
+
+# Larger files of a template are meshes and fields
+TEXT_LIMIT = 10**6
+
+
+def check(study, quiet=False):
+    """Stops with a StudyError; otherwise says what the study is."""
+    checkFolders(study)
+    checkTargets(study)
+    checkCommands(study)
+    share = checkFeasible(study)
+    if not quiet:
+        describe(study, share)
+
+
+def checkFolders(study):
+    if not study.template.is_dir():
+        raise StudyError(f"template: {study.template} is no folder. Give the"
+                         " template case's, relative to the study file")
+    if study.folder == study.template or study.folder in (
+            study.template.parents):
+        raise StudyError(
+            f"folder: {study.folder} holds the template. Give the study a"
+            " folder of its own")
+
+
+def texts(study):
+    """The template's text files, as far as they are copied: {path: text}."""
+    found = {}
+    skip = [Path(p) for p in (study.folder,)]
+    for path in sorted(study.template.rglob("*")):
+        if any(s == path or s in path.parents for s in skip):
+            continue
+        if path.is_file() and path.stat().st_size < TEXT_LIMIT:
+            try:
+                found[path.relative_to(study.template)] = path.read_text()
+            except (UnicodeDecodeError, OSError):
+                pass
+    return found
+
+
+def checkTargets(study):
+    """Every parameter must go somewhere, and that must be there."""
+    used = set().union(*(d.expression.names for d in study.derived))
+    aimed = {name for name, _ in study.targets()}
+    if study.parametersFile:
+        checkParametersFile(study, used | aimed)
+    else:
+        for name in study.names:
+            if name not in used | aimed:
+                raise StudyError(
+                    f"parameters/{name} goes nowhere. Give it file and entry,"
+                    " or give the study a parametersFile")
+    for name, target in study.targets():
+        checkEntry(study, name, target)
+
+
+def checkParametersFile(study, elsewhere):
+    own = Path(study.parametersFile)
+    files = texts(study)
+    present = files.pop(own, None)
+    readers = {p: t for p, t in files.items() if own.name in t}
+    including = [p for p, t in readers.items() if re.search(
+        rf'#include\w*\s+"[^"]*\b{re.escape(own.name)}"', t)]
+    steps = " ".join(step.run for s in study.strategies.values()
+                     for step in s.steps)
+    if not readers and own.name not in steps:
+        raise StudyError(
+            f"parametersFile: no file of {study.template} mentions {own.name}."
+            f' Write #include "{own.name}" (with the path from there) into the'
+            " dictionaries that use the parameters")
+    if present is not None:
+        checkSameNames(study, own, present)
+    if len(including) == len(readers) and own.name not in steps:
+        everything = "\n".join(files.values())
+        for name in study.names:
+            if name not in elsewhere and not re.search(
+                    rf"\$(\{{)?{name}\b", everything):
+                raise StudyError(
+                    f"parameters/{name} goes nowhere: no dictionary of"
+                    f" {study.template} uses ${name}, no derived quantity"
+                    " does, and it has no file and entry")
+
+
+def checkSameNames(study, own, text):
+    """A file of parameters in the template is replaced: it must not have more
+    than what replaces it."""
+    plain = re.sub(r"//.*|/\*.*?\*/|FoamFile\s*\{.*?\}", "", text,
+                   flags=re.DOTALL if "/*" in text else 0)
+    there = re.findall(r"^\s*([A-Za-z_]\w*)\s+[^;{]*;", plain, re.MULTILINE)
+    extra = [name for name in there if name not in study.baselineValues]
+    if extra:
+        raise StudyError(
+            f"parametersFile: {own} of the template also sets"
+            f" {', '.join(extra)}, which the study does not. It is replaced in"
+            " each design: make these derived quantities of the study, or put"
+            " them into another file")
+
+
+def checkEntry(study, name, target):
+    path = study.template / target.file
+    if not path.is_file():
+        raise StudyError(f"{name}/file: {target.file} is no file of"
+                         f" {study.template}")
+    done = caseFolder.foamDictionary(study.template, target, "-value")
+    if done.returncode == 0:
+        return
+    parent = target.entry.replace(".", "/").rpartition("/")[0]
+    siblings = caseFolder.keywords(study.template, target.file, parent)
+    raise StudyError(
+        f"{name}/entry: {target.file} has no entry {target.entry}."
+        + (f" In {parent or 'the file'} there are: {siblings}" if siblings
+           else f" There is no {parent} either")
+        + ". An entry that comes by #include is set in the included file")
+
+
+def commands(study):
+    """All commands with the place where they stand."""
+    for strategy in study.strategies.values():
+        for step in strategy.steps:
+            yield f"strategies/{strategy.name}/steps/{step.name}", step.run
+    for step in study.baselineSteps or []:
+        yield f"baseline/steps/{step.name}", step.run
+    for response in study.responses.values():
+        if response.command:
+            yield f"responses/{response.name}", response.command
+    if study.picture:
+        yield "picture", study.picture
+
+
+def checkCommands(study):
+    """The first word of each command must be something that can be run."""
+    for where, command in commands(study):
+        syntax = subprocess.run(["bash", "-n", "-c", command], text=True,
+                                stderr=subprocess.PIPE)
+        if syntax.returncode:
+            raise StudyError(f"{where}: '{command}' is no command:"
+                             f" {syntax.stderr.strip().splitlines()[-1]}")
+        word = firstWord(command)
+        if word and not found(word, study.template):
+            raise StudyError(
+                f"{where}: there is no command {word}"
+                + (f" in {study.template}" if "/" in word
+                   else " on the path. Is OpenFOAM's environment sourced?"))
+
+
+def firstWord(command):
+    """The program a command starts, where that is plain to see."""
+    try:
+        words = shlex.split(command)
+    except ValueError:
+        return None
+    for word in words:
+        if not re.match(r"\w+=", word):
+            return word if re.fullmatch(r"[\w./+-]+", word) else None
+    return None
+
+
+def found(word, folder):
+    return subprocess.run(
+        ["bash", "-c", f"type -t {shlex.quote(word)}"], cwd=folder,
+        stdout=subprocess.DEVNULL).returncode == 0
+
+
+def checkFeasible(study):
+    """The feasible share of the box; stops where there is none."""
+    if study.sampling.method == "factorial":
+        sampling.sample(study, [])
+    return sampling.feasibleProbes(study)[1]
+
+
+def describe(study, share):
+    print(f"{study.path.name}: {len(study.names)} parameters,"
+          f" {len(study.responses)} responses, strategies"
+          f" {' '.join(study.strategies)}")
+    print(f"feasible: {100*share:.3g} % of the box of the bounds")
+    outside = [p.name for p in study.parameters
+               if not p.low <= p.baseline <= p.high]
+    broken = study.broken(study.baseline)
+    if outside or broken:
+        print("Note: the baseline is outside the designs' space ("
+              + ", ".join([*outside, *broken]) + ")")
+    if study.sampling.method == "factorial":
+        grid = len(sampling.sample(study, []))
+        print(f"factorial: {grid} of {np.prod(list(study.sampling.levels.values()))}"
+              " points of the grid keep to the constraints")
+    print("No mistake found")

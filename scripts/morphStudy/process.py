@@ -1,0 +1,65 @@
+"""A command with a log, a timeout, and an end: when it is over, or this process
+is gone, nothing of it is left running."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import time
+
+PR_SET_PDEATHSIG = 1
+
+
+def dieWithParent():
+    """Be killed when the process that started this one ends. Linux."""
+    ctypes.CDLL(None, use_errno=True).prctl(
+        PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+
+
+def guard(group):
+    """A process beside the command that outlives this one just long enough to
+    kill the command's process group. Returns what ends it: (pid, pipe)."""
+    read, write = os.pipe()
+    pid = os.fork()
+    if pid:
+        os.close(read)
+        return pid, write
+    try:
+        os.setsid()
+        os.close(write)
+        # Not the files of the process it guards, such as its locks
+        os.closerange(3, read)
+        os.closerange(read + 1, 256)
+        if os.read(read, 1) == b"":
+            os.killpg(group, signal.SIGKILL)
+    except OSError:
+        pass
+    finally:
+        os._exit(0)
+
+
+def run(command, folder, log, timeout=None, environment=None):
+    """Run a bash command in a folder, its output in the log. Returns the exit
+    status, None after a timeout, and the wall time [s]."""
+    start = time.monotonic()
+    with open(log, "w") as output:
+        process = subprocess.Popen(
+            ["bash", "-c", command], cwd=folder, stdout=output,
+            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+            start_new_session=True,
+            env={**os.environ, "PWD": str(folder), **(environment or {})})
+        pid, pipe = guard(process.pid)
+        try:
+            status = process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            status = None
+        finally:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
+            os.write(pipe, b".")
+            os.close(pipe)
+            os.waitpid(pid, 0)
+    return status, time.monotonic() - start

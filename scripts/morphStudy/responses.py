@@ -1,0 +1,136 @@
+"""Numbers from what a run leaves behind in a case folder."""
+
+import math
+import re
+import subprocess
+
+import numpy as np
+
+from .caseFolder import isTime
+from .studyFile import Response
+
+
+class ResponseError(Exception):
+    """Why a response could not be read."""
+
+
+def newest(case, pattern):
+    """The file that matches, of the largest time in its path."""
+    paths = [p for p in case.glob(pattern) if p.is_file()]
+    if not paths:
+        raise ResponseError(f"there is no file {pattern}")
+
+    def key(path):
+        parts = path.relative_to(case).parts
+        return ([float(part) for part in parts if isTime(part)], str(path))
+
+    return max(paths, key=key)
+
+
+def columns(path):
+    """Names and rows of a table as OpenFOAM's function objects write it."""
+    names, rows = [], []
+    for line in path.read_text().splitlines():
+        words = line.replace("(", " ").replace(")", " ").replace(
+            ",", " ").split()
+        if line.startswith("#"):
+            names = line[1:].split() if not rows else names
+        elif words:
+            rows.append(words)
+    if not rows:
+        raise ResponseError(f"{path.name} has no row of values")
+    return names, rows
+
+
+def ofTable(path, response):
+    names, rows = columns(path)
+    column = response.column
+    if isinstance(column, str):
+        if column not in names:
+            raise ResponseError(f"{path.name} has no column {column}; its"
+                                f" columns are {' '.join(names) or 'unnamed'}")
+        column = names.index(column)
+    try:
+        table = [(float(row[0]), float(row[column])) for row in rows]
+    except (IndexError, ValueError) as error:
+        raise ResponseError(f"{path.name}, column {response.column}: {error}"
+                            ) from None
+    if response.window is None:
+        return table[-1][1]
+    end = table[-1][0]
+    return float(np.mean([v for t, v in table if t > end - response.window]))
+
+
+def ofText(path, response):
+    found = re.findall(response.regex, path.read_text(errors="replace"),
+                       re.MULTILINE)
+    if not found:
+        raise ResponseError(f"{path.name} has nothing like {response.regex}")
+    count = 1 if response.window is None else int(response.window)
+    try:
+        return float(np.mean([float(v) for v in found[-count:]]))
+    except ValueError as error:
+        raise ResponseError(f"{path.name}: {error}") from None
+
+
+def ofCommand(command, case, environment, timeout):
+    """The lines 'name value' that a command prints."""
+    try:
+        done = subprocess.run(
+            ["bash", "-c", command], cwd=case, text=True, timeout=timeout,
+            env=environment, stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    except subprocess.TimeoutExpired:
+        raise ResponseError(f"'{command}' ran into the timeout") from None
+    if done.returncode:
+        last = done.stderr.strip().splitlines()[-1:] or ["nothing"]
+        raise ResponseError(f"'{command}' exits with {done.returncode} and"
+                            f" says: {last[0]}")
+    values = {}
+    for line in done.stdout.splitlines():
+        words = line.split()
+        if len(words) == 2:
+            try:
+                values[words[0]] = float(words[1])
+            except ValueError:
+                pass
+    return values
+
+
+def readOne(response: Response, case, known, baseline, printed):
+    if response.expression:
+        return float(response.expression(known, baseline))
+    if response.command:
+        values = printed(response.command)
+        if response.name not in values:
+            raise ResponseError(f"'{response.command}' prints no line"
+                                f" '{response.name} VALUE'")
+        return values[response.name]
+    path = newest(case, response.file)
+    return (ofText if response.regex else ofTable)(path, response)
+
+
+def read(study, case, parameters, environment):
+    """All responses of a case. Raises ResponseError, naming the response."""
+    outputs = {}
+
+    def printed(command):
+        if command not in outputs:
+            outputs[command] = ofCommand(command, case, environment, 600)
+        return outputs[command]
+
+    known, values = dict(study.values(parameters)), {}
+    for name, response in study.responses.items():
+        try:
+            value = readOne(
+                response, case, known, study.baselineValues, printed)
+        except ResponseError as error:
+            raise ResponseError(f"response {name}: {error}") from None
+        low, high = response.limits
+        if not math.isfinite(value):
+            raise ResponseError(f"response {name} is {value}")
+        if not low <= value <= high:
+            raise ResponseError(f"response {name} is {value:g}, outside its"
+                                f" limits [{low:g}, {high:g}]")
+        known[name] = values[name] = value
+    return values

@@ -1,0 +1,67 @@
+"""Outcomes as one table, results.<strategy>.csv."""
+
+import csv
+
+from . import designs, outcomes
+
+
+def rows(study, strategy, baseline=True):
+    """One dictionary per finished design, the baseline's first."""
+    found = []
+    if baseline and study.baselineSteps is not None:
+        found.append((outcomes.read(study, outcomes.BASELINE), "baseline"))
+    for design in designs.read(study):
+        found.append((outcomes.read(study, strategy, design.number),
+                      design.origin))
+    return [row(study, o, origin) for o, origin in found if o]
+
+
+def row(study, outcome, origin):
+    quality = {f"mesh.{k}": v for k, v in outcome["quality"].items()}
+    return {
+        "design": f"{outcome['number']:04d}" if outcome["number"]
+        else "baseline",
+        "origin": origin, "status": outcome["status"],
+        **outcome["parameters"], **outcome["derived"],
+        **{name: outcome["responses"].get(name, "")
+           for name in study.responses},
+        "iterations": outcome["iterations"],
+        "time": round(sum(outcome["wall"].values()), 3),
+        **{f"time.{k}": v for k, v in outcome["wall"].items()},
+        **quality, "startedFrom": outcome["startedFrom"],
+        "attempts": outcome["attempts"], "picture": outcome["picture"],
+        "reason": outcome["reason"]}
+
+
+def write(study, strategy):
+    """The table; returns its path."""
+    table = rows(study, strategy)
+    columns = []
+    for item in table:
+        columns += [name for name in item if name not in columns]
+    path = study.folder / f"results.{strategy}.csv"
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, columns, restval="")
+        writer.writeheader()
+        writer.writerows(table)
+    return path
+
+
+def conclude(study, strategy, chosen):
+    """Write the table, say how it went; the exit status."""
+    found = [outcomes.read(study, strategy, d.number) for d in chosen]
+    failed = [o for o in found if o and not outcomes.isDone(o)]
+    missing = sum(o is None for o in found)
+    path = write(study, strategy)
+    print(f"{strategy}: {len(found) - len(failed) - missing} done,"
+          f" {len(failed)} failed, {missing} not finished; {path}")
+    if missing:
+        baseline = outcomes.read(study, outcomes.BASELINE)
+        if baseline and not outcomes.isDone(baseline):
+            print(f"Error: the baseline failed: {baseline['reason']}\n    See"
+                  f" {outcomes.case(study, outcomes.BASELINE)}; corrected, the"
+                  " same command goes on")
+        else:
+            print(f"Error: see {study.folder/'snakemake.log'}; the same command"
+                  " goes on")
+    return 1 if missing else 0

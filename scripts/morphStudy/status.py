@@ -1,0 +1,31 @@
+"""The verb status: how far each strategy is."""
+
+import os
+
+from . import designs, outcomes, results, sweep
+
+
+def status(study, cores=None):
+    table = designs.read(study)
+    atOnce = max(1, (cores or len(os.sched_getaffinity(0)))//study.cores)
+    print(f"{len(table)} designs in {study.folder}")
+    if study.baselineSteps is not None:
+        outcome = outcomes.read(study, outcomes.BASELINE)
+        print("baseline: " + (
+            sweep.describe(outcome) if outcome else "not finished"))
+    for strategy in study.strategies:
+        found = [outcomes.read(study, strategy, d.number) for d in table]
+        finished = [o for o in found if o]
+        failed = [o for o in finished if not outcomes.isDone(o)]
+        waiting = len(found) - len(finished)
+        line = (f"{strategy}: {len(finished) - len(failed)} done,"
+                f" {len(failed)} failed, {waiting} not finished")
+        if finished and waiting:
+            times = [sum(o["wall"].values()) for o in finished]
+            line += "; some " + sweep.duration(sweep.timeLeft(
+                times, waiting, atOnce)) + f" on {atOnce*study.cores} cores"
+        print(line)
+        for outcome in failed:
+            print(f"    {outcome['number']:04d}: {outcome['reason']}")
+        if finished:
+            print(f"    {results.write(study, strategy)}")

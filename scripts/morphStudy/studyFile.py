@@ -1,0 +1,505 @@
+"""Reads the study file: README.md's keys, each checked, nothing else allowed."""
+
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from .errors import StudyError
+from .expressions import Condition, Expression, RESERVED
+
+NAME = re.compile(r"[A-Za-z_]\w*$")
+METHODS = ("latinHypercube", "sobol", "factorial")
+STARTS = ("baseline", "nearest", "template")
+# The study's own folders and columns
+TAKEN = {"baseline", "outcomes", "workflow", "template"}
+
+
+@dataclass
+class Target:
+    """An entry of a dictionary of the case."""
+    file: str
+    entry: str
+
+
+@dataclass
+class Parameter:
+    name: str
+    low: float
+    high: float
+    baseline: float
+    target: Target | None
+
+
+@dataclass
+class Derived:
+    name: str
+    expression: Expression
+    target: Target | None
+
+
+@dataclass
+class Sampling:
+    method: str
+    designs: int | None
+    levels: dict | None
+    seed: int
+
+
+@dataclass
+class Step:
+    name: str
+    run: str
+    timeout: float | None
+    expect: str | None
+
+
+@dataclass
+class Strategy:
+    name: str
+    start: str
+    steps: list
+
+
+@dataclass
+class Response:
+    """One source: file with column or regex, command, or expression."""
+    name: str
+    file: str | None = None
+    column: str | int | None = None
+    regex: str | None = None
+    window: float | None = None
+    command: str | None = None
+    expression: Expression | None = None
+    limits: tuple = (-math.inf, math.inf)
+
+
+@dataclass
+class Optimise:
+    objectives: dict = field(default_factory=dict)   # name: +1 maximise, -1
+    constraints: list = field(default_factory=list)
+    population: int = 200
+    generations: int = 200
+    seed: int = 1
+    maxClusters: int = 8
+
+
+class UniqueKeys(yaml.SafeLoader):
+    """YAML in which a key that stands twice is an error."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value:
+            if key.value in seen:
+                raise StudyError(
+                    f"line {key.start_mark.line + 1}: the key '{key.value}'"
+                    " stands twice. Keep one of them")
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def load(path):
+    """The content of a YAML file."""
+    try:
+        content = yaml.load(Path(path).read_text(), UniqueKeys)
+    except OSError as error:
+        raise StudyError(f"{path} cannot be read: {error.strerror}") from None
+    except (yaml.YAMLError, StudyError) as error:
+        raise StudyError(f"{path} is no YAML file: {error}") from None
+    return content
+
+
+class Section:
+    """A mapping of the file whose keys are taken out one by one."""
+
+    def __init__(self, content, where, allowed):
+        self.where = where
+        if not isinstance(content, dict):
+            raise StudyError(
+                f"{where or 'The study file'} must be a list of 'key: value'"
+                f" with the keys {' '.join(allowed)}; it is '{content}'")
+        unknown = [str(key) for key in content if key not in allowed]
+        if unknown:
+            raise StudyError(
+                f"{self.at(unknown[0])} is no key of a study file. Allowed"
+                f" {'in ' + where if where else 'here'}: {' '.join(allowed)}")
+        self.content = content
+
+    def at(self, key):
+        return f"{self.where}/{key}" if self.where else str(key)
+
+    def __contains__(self, key):
+        return self.content.get(key) is not None
+
+    def get(self, key, default=...):
+        if key in self:
+            return self.content[key]
+        if default is ...:
+            raise StudyError(f"{self.at(key)} is missing; README.md of"
+                             " morphStudy says what belongs there")
+        return default
+
+    def number(self, key, default=..., low=-math.inf, whole=False):
+        value = self.get(key, default)
+        if value is None:
+            return None
+        value = number(value, self.at(key))
+        if whole and value != int(value) or value < low:
+            raise StudyError(
+                f"{self.at(key)} is {value:g}; it must be a"
+                f"{' whole' if whole else ''} number of at least {low:g}")
+        return int(value) if whole else value
+
+    def text(self, key, default=...):
+        value = self.get(key, default)
+        if value is not None and not isinstance(value, str):
+            raise StudyError(f"{self.at(key)} is '{value}'; it must be a text")
+        return value
+
+    def regex(self, key, default=..., groups=None):
+        text = self.text(key, default)
+        if text is None:
+            return None
+        try:
+            found = re.compile(text).groups
+        except re.error as error:
+            raise StudyError(f"{self.at(key)}: '{text}' is no regular"
+                             f" expression ({error})") from None
+        if groups is not None and found != groups:
+            raise StudyError(
+                f"{self.at(key)}: '{text}' has {found} groups; put ( ) round"
+                " the number, and (?: ) where you only group")
+        return text
+
+    def items(self, key, default=...):
+        value = self.get(key, default)
+        value = [value] if isinstance(value, str) else value
+        if not isinstance(value, list):
+            raise StudyError(f"{self.at(key)} is '{value}'; it must be a list")
+        return value
+
+    def names(self, key):
+        """The mapping under key, its names checked."""
+        content = self.get(key)
+        if not isinstance(content, dict) or not content:
+            raise StudyError(
+                f"{self.at(key)} must be a list of 'name: ...' with at least"
+                f" one name; it is '{content}'")
+        for name in content:
+            if not isinstance(name, str) or not NAME.match(name):
+                raise StudyError(
+                    f"{self.at(key)}: '{name}' is no name. Use letters, digits"
+                    " and _, a letter first")
+        return content
+
+
+def number(value, where):
+    # YAML takes 1e-5 for a text
+    try:
+        if isinstance(value, bool):
+            raise ValueError
+        value = float(value)
+    except (TypeError, ValueError):
+        raise StudyError(f"{where} is '{value}', which is no number") from None
+    if not math.isfinite(value):
+        raise StudyError(f"{where} is {value}; it must be finite")
+    return value
+
+
+def interval(value, where):
+    if not isinstance(value, list) or len(value) != 2:
+        raise StudyError(f"{where} is '{value}'; write [lowest, highest]")
+    low, high = (number(v, where) for v in value)
+    if not low < high:
+        raise StudyError(
+            f"{where} is [{low:g}, {high:g}]: the first must be the smaller")
+    return low, high
+
+
+def readTarget(section):
+    file, entry = section.text("file", None), section.text("entry", None)
+    if (file is None) != (entry is None):
+        raise StudyError(f"{section.where} needs file and entry together")
+    return Target(file, entry) if file else None
+
+
+def readSteps(section, timeout):
+    steps = []
+    for name, value in section.names("steps").items():
+        where = f"{section.at('steps')}/{name}"
+        if isinstance(value, str):
+            value = {"run": value}
+        step = Section(value, where, ("run", "timeout", "expect"))
+        steps.append(Step(
+            name, step.text("run"), step.number("timeout", timeout, low=1e-3),
+            step.regex("expect", None)))
+    return steps
+
+
+def readResponse(name, content, where, steps):
+    item = Section(content, where, (
+        "file", "column", "regex", "window", "command", "expression", "limits"))
+    sources = [k for k in ("file", "command", "expression") if k in item]
+    if len(sources) != 1:
+        raise StudyError(f"{where} needs one of file, command, expression;"
+                         f" it has {' and '.join(sources) or 'none'}")
+    response = Response(
+        name, item.text("file", None), item.get("column", None),
+        item.regex("regex", None, groups=1),
+        item.number("window", None, low=1e-300),
+        item.text("command", None))
+    if "limits" in item:
+        response.limits = interval(item.get("limits"), item.at("limits"))
+    if "expression" in item:
+        response.expression = Expression(
+            item.get("expression"), item.at("expression"))
+    if response.file and ("column" in item) == ("regex" in item):
+        raise StudyError(f"{where} has a file; it needs a column of its table,"
+                         " or a regex for its text, one of the two")
+    if not response.file and {"column", "regex", "window"} & set(item.content):
+        raise StudyError(f"{where}: column, regex and window belong to a file")
+    if response.file and response.file.startswith("log."):
+        if response.file[4:] not in steps:
+            raise StudyError(
+                f"{where}/file: no step writes {response.file}. The steps that"
+                f" every strategy has: {' '.join(sorted(steps)) or 'none'}")
+    return response
+
+
+class Study:
+    """A study file that was found right, and what follows from it."""
+
+    KEYS = ("template", "exclude", "folder", "parametersFile", "parameters",
+            "derived", "constraints", "sampling", "cores", "baseline",
+            "strategies", "iterations", "responses", "failure", "picture",
+            "fit", "optimise")
+
+    def __init__(self, path, content=None):
+        """content: the file whose words count, while paths are relative to
+        path."""
+        self.path = Path(path).resolve()
+        self.root = self.path.parent
+        file = Section(load(content or path), "", self.KEYS)
+
+        self.template = (self.root / file.text("template")).resolve()
+        self.exclude = file.items("exclude", [])
+        self.folder = (self.root / file.text(
+            "folder", self.path.stem + ".study")).resolve()
+        self.parametersFile = file.text("parametersFile", None)
+        self.cores = file.number("cores", 1, low=1, whole=True)
+        self.picture = file.text("picture", None)
+
+        self._readParameters(file)
+        self._readDerived(file)
+        self.constraints = self._conditions(
+            file, "constraints", list(self.values(self.baseline)))
+        self._readSampling(file)
+        self._readStrategies(file)
+        self._readResponses(file)
+        self._readFit(file)
+        self._readOptimise(file)
+
+    @property
+    def names(self):
+        return [p.name for p in self.parameters]
+
+    @property
+    def lows(self):
+        return np.array([p.low for p in self.parameters])
+
+    @property
+    def highs(self):
+        return np.array([p.high for p in self.parameters])
+
+    def values(self, parameters):
+        """Parameters and derived quantities, by name; arrays as well."""
+        values = dict(parameters)
+        for item in self.derived:
+            values[item.name] = item.expression(values, self.baselineValues)
+        return values
+
+    def feasible(self, points):
+        """Which rows of points (one column per parameter) keep to all
+        constraints."""
+        values = self.values(dict(zip(self.names, np.asarray(points).T)))
+        missed = sum((np.asarray(c.violation(values, self.baselineValues))
+                      for c in self.constraints), np.zeros(len(points)))
+        return missed == 0
+
+    def broken(self, parameters):
+        """The constraints that one design breaks."""
+        values = self.values(parameters)
+        return [c.text for c in self.constraints
+                if c.violation(values, self.baselineValues) > 0]
+
+    def targets(self):
+        return [(item.name, item.target)
+                for item in [*self.parameters, *self.derived] if item.target]
+
+    def _newName(self, name, where):
+        if name in RESERVED:
+            raise StudyError(f"{where}: the name {name} has a meaning in"
+                             " expressions. Choose another")
+        if name in self._seen:
+            raise StudyError(f"{where}: {name} stands there twice, as a"
+                             " parameter, derived quantity or response")
+        self._seen.add(name)
+
+    def _readParameters(self, file):
+        self.parameters, self._seen = [], set()
+        for name, content in file.names("parameters").items():
+            item = Section(content, f"parameters/{name}",
+                           ("bounds", "baseline", "file", "entry"))
+            self._newName(name, item.where)
+            low, high = interval(item.get("bounds"), item.at("bounds"))
+            self.parameters.append(Parameter(
+                name, low, high, item.number("baseline"), readTarget(item)))
+        self.baseline = {p.name: p.baseline for p in self.parameters}
+
+    def _readDerived(self, file):
+        self.derived, self.baselineValues = [], dict(self.baseline)
+        for name, content in (file.names("derived").items()
+                              if "derived" in file else ()):
+            where = f"derived/{name}"
+            self._newName(name, where)
+            if not isinstance(content, dict):
+                content = {"expression": content}
+            item = Section(content, where, ("expression", "file", "entry"))
+            expression = Expression(item.get("expression"), where)
+            expression.check(list(self.baselineValues))
+            self.derived.append(Derived(name, expression, readTarget(item)))
+            self.baselineValues[name] = expression(
+                self.baselineValues, self.baselineValues)
+
+    def _conditions(self, section, key, known):
+        conditions = []
+        for text in section.items(key, []):
+            conditions.append(Condition(text, section.at(key)))
+            conditions[-1].check(known)
+        return conditions
+
+    def _readSampling(self, file):
+        item = Section(file.get("sampling"), "sampling",
+                       ("method", "designs", "levels", "seed"))
+        method = item.text("method")
+        if method not in METHODS:
+            raise StudyError(f"sampling/method is {method}; it must be one of"
+                             f" {' '.join(METHODS)}")
+        needs, refuses = (("levels", "designs") if method == "factorial"
+                          else ("designs", "levels"))
+        if refuses in item:
+            raise StudyError(f"sampling/{refuses} says nothing to {method},"
+                             f" which takes {needs}")
+        self.sampling = Sampling(
+            method, None, None, item.number("seed", 1, low=0, whole=True))
+        if method != "factorial":
+            self.sampling.designs = item.number("designs", low=1, whole=True)
+            return
+        levels = item.get("levels")
+        if not isinstance(levels, dict):
+            levels = dict.fromkeys(self.names, levels)
+        levels = Section(levels, "sampling/levels", self.names)
+        self.sampling.levels = {
+            name: levels.number(name, low=1, whole=True)
+            for name in self.names}
+
+    def _readStrategies(self, file):
+        failure = Section(file.get("failure", {}), "failure",
+                          ("timeout", "retries"))
+        timeout = failure.number("timeout", None, low=1e-3)
+        self.retries = failure.number("retries", 0, low=0, whole=True)
+
+        self.strategies = {}
+        for name, content in file.names("strategies").items():
+            if name in TAKEN:
+                raise StudyError(f"strategies: {name} is a folder of the"
+                                 " study's own. Choose another name")
+            item = Section(content, f"strategies/{name}", ("start", "steps"))
+            start = item.text("start", "baseline")
+            if start not in STARTS:
+                raise StudyError(f"{item.at('start')} is {start}; it must be"
+                                 f" one of {' '.join(STARTS)}")
+            self.strategies[name] = Strategy(
+                name, start, readSteps(item, timeout))
+
+        self.baselineSteps = None
+        if "baseline" in file or any(
+                s.start != "template" for s in self.strategies.values()):
+            item = Section(file.get("baseline"), "baseline", ("steps",))
+            self.baselineSteps = readSteps(item, timeout)
+        self._readIterations(file)
+
+    def _readIterations(self, file):
+        item = Section(file.get("iterations", {}), "iterations",
+                       ("step", "regex"))
+        self.iterationStep = item.text("step", None)
+        self.iterationRegex = item.regex("regex", r"^Time = ")
+        for strategy in self.strategies.values():
+            steps = [step.name for step in strategy.steps]
+            if self.iterationStep not in (None, *steps):
+                raise StudyError(
+                    f"iterations/step: strategy {strategy.name} has no step"
+                    f" {self.iterationStep}, but {' '.join(steps)}")
+
+    def _readResponses(self, file):
+        steps = set.intersection(*({step.name for step in s.steps}
+                                   for s in self.strategies.values()))
+        self.responses = {}
+        for name, content in file.names("responses").items():
+            self._newName(name, "responses")
+            response = readResponse(
+                name, content, f"responses/{name}", steps)
+            if response.expression:
+                response.expression.check(
+                    [*self.baselineValues, *self.responses])
+            self.responses[name] = response
+
+    def _known(self, names, where):
+        for name in names:
+            if name not in self.responses:
+                raise StudyError(
+                    f"{where}: there is no response {name}. The responses are"
+                    f" {' '.join(self.responses)}")
+
+    def _readFit(self, file):
+        item = Section(file.get("fit", {}), "fit", ("responses",))
+        self.fitted = item.items("responses", [])
+        self._known(self.fitted, "fit/responses")
+
+    def _readOptimise(self, file):
+        self.optimise = None
+        if "optimise" in file:
+            item = Section(file.get("optimise"), "optimise", (
+                "objectives", "constraints", "population", "generations",
+                "seed", "maxClusters"))
+            objectives = item.names("objectives")
+            self._known(objectives, "optimise/objectives")
+            senses = {"maximise": 1, "minimise": -1}
+            for name, sense in objectives.items():
+                if sense not in senses:
+                    raise StudyError(f"optimise/objectives/{name} is {sense};"
+                                     " it must be maximise or minimise")
+            self.optimise = Optimise(
+                {name: senses[sense] for name, sense in objectives.items()},
+                self._conditions(item, "constraints",
+                                 [*self.baselineValues, *self.responses]),
+                item.number("population", 200, low=4, whole=True),
+                item.number("generations", 200, low=1, whole=True),
+                item.number("seed", 1, low=0, whole=True),
+                item.number("maxClusters", 8, low=1, whole=True))
+            if self.optimise.population % 4:
+                raise StudyError(
+                    f"optimise/population is {self.optimise.population};"
+                    " NSGA-II pairs tournaments: use a multiple of 4")
+        if not self.fitted:
+            self.fitted = list(
+                self.optimise.objectives if self.optimise else self.responses)
+        if self.optimise:
+            needed = set(self.optimise.objectives).union(
+                *(c.names & set(self.responses)
+                  for c in self.optimise.constraints))
+            if not needed <= set(self.fitted):
+                self.fitted += sorted(needed - set(self.fitted))

@@ -1,0 +1,237 @@
+"""The verb run: what is not finished, by Snakemake.
+
+Outcomes alone say what is finished, so that this can be killed at any moment:
+each call plans anew what is missing, and the engine's own memory is thrown away.
+"""
+
+import contextlib
+import fcntl
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from . import check, designs, outcomes, process, responses, results, worker
+from .errors import StudyError
+
+SCRIPTS = Path(__file__).resolve().parents[1]
+
+
+@contextlib.contextmanager
+def onlyOne(study):
+    """Two sweeps at once would make each other's folders."""
+    study.folder.mkdir(parents=True, exist_ok=True)
+    with (study.folder / ".lock").open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise StudyError(f"another morphStudy is at work in {study.folder}."
+                             " Wait for it, or stop it first") from None
+        yield
+
+
+def selected(study, only):
+    """The designs to run."""
+    all_ = designs.read(study)
+    if not all_:
+        raise StudyError(f"there are no designs in {study.folder}. Choose them"
+                         f" first: morphStudy sample {study.path.name}")
+    for design in all_:
+        broken = study.broken(design.parameters)
+        if broken:
+            raise StudyError(
+                f"design {design.id} breaks the constraint {broken[0]}: the"
+                " constraints have changed since it was sampled. Remove its row"
+                " of designs.csv with its outcomes, or use another folder")
+    unknown = set(only) - {d.number for d in all_}
+    if unknown:
+        raise StudyError(f"there is no design {min(unknown)}; the designs are"
+                         f" 1 to {all_[-1].number}")
+    return [d for d in all_ if not only or d.number in only]
+
+
+def forget(study, strategy, chosen, redo):
+    """Remove the outcomes of designs that are to be made again."""
+    for design in chosen:
+        outcome = outcomes.read(study, strategy, design.number)
+        if outcome and (design.number in redo or (
+                "failed" in redo and not outcomes.isDone(outcome))):
+            outcomes.path(study, strategy, design.number).unlink()
+
+
+def keepUp(study, strategy, numbers):
+    """Stop where finished designs were made in another way than the study file
+    says now; read responses again where only those have changed."""
+    for name, number in [(outcomes.BASELINE, None)] + [
+            (strategy, n) for n in numbers]:
+        outcome = outcomes.read(study, name, number)
+        if outcome is None or (name == outcomes.BASELINE
+                               and study.baselineSteps is None):
+            continue
+        changed = outcomes.changes(study, name, outcome)
+        if changed:
+            what = f"design {number:04d}" if number else "the baseline"
+            raise StudyError(
+                f"{what} of {name} was made with another study file: "
+                + ", ".join(changed) + " differ. Use another folder, or remove"
+                f" {outcomes.path(study, name, number)} to have it made anew")
+        if outcome["responseTexts"] != outcomes.responseTexts(study):
+            readAgain(study, outcome)
+
+
+def readAgain(study, outcome):
+    if outcome["reason"] and not outcome["reason"].startswith("response"):
+        return
+    maker = worker.Worker(study, outcome["strategy"], outcome["number"] or 0)
+    try:
+        outcome["responses"] = responses.read(
+            study, maker.case, maker.parameters, maker.environment())
+        outcome.update(status=outcomes.DONE, reason="")
+    except responses.ResponseError as error:
+        outcome.update(status=outcomes.FAILED, reason=str(error), responses={})
+    outcome["responseTexts"] = outcomes.responseTexts(study)
+    outcomes.write(study, outcome)
+
+
+def plan(study, strategy, chosen, snapshot):
+    """The jobs that are missing: {name: {command, after}}."""
+    jobs = {}
+
+    def add(name, strategy_, number, after):
+        jobs[name] = {"after": [a for a in after if a in jobs], "command": " ".join(
+            map(shlex.quote, [
+                "env", f"PYTHONPATH={SCRIPTS}", sys.executable, "-m",
+                "morphStudy.worker", str(study.path), str(snapshot), strategy_,
+                str(number)]))}
+
+    start = study.strategies[strategy].start
+    if start != "template" and not outcomes.isDone(
+            outcomes.read(study, outcomes.BASELINE)):
+        add("baseline", outcomes.BASELINE, 0, [])
+    table = designs.read(study)
+    for design in chosen:
+        if outcomes.read(study, strategy, design.number):
+            continue
+        after = ["baseline"]
+        if start == "nearest":
+            after += [f"{n:04d}" for n in worker.nearer(
+                study, table, design.number)[:1]]
+        add(design.id, strategy, design.number, after)
+    return jobs
+
+
+def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
+    """Returns the exit status: 0 when every design has an outcome."""
+    strategy = strategy or next(iter(study.strategies))
+    if strategy not in study.strategies:
+        raise StudyError(f"there is no strategy {strategy}; the strategies are"
+                         f" {' '.join(study.strategies)}")
+    check.check(study, quiet=True)
+    chosen = selected(study, only)
+    with onlyOne(study):
+        forget(study, strategy, chosen, redo)
+        keepUp(study, strategy, [d.number for d in chosen])
+        workflow = study.folder / "workflow"
+        shutil.rmtree(workflow, ignore_errors=True)
+        workflow.mkdir()
+        snapshot = workflow / "study.yaml"
+        shutil.copy(study.path, snapshot)
+        jobs = plan(study, strategy, chosen, snapshot)
+        cores = cores or len(os.sched_getaffinity(0))
+        (workflow / "plan.json").write_text(json.dumps(
+            {"cores": study.cores, "jobs": jobs}, indent=1))
+        if jobs:
+            progress = Progress(study, strategy, chosen,
+                                max(1, cores//study.cores))
+            engine(study, workflow, cores, profile, progress)
+        return results.conclude(study, strategy, chosen)
+
+
+def engine(study, workflow, cores, profile, progress):
+    """Run Snakemake and say what it gets done."""
+    command = [
+        sys.executable, "-m", "snakemake",
+        "--snakefile", str(Path(__file__).with_name("Snakefile")),
+        "--directory", str(workflow), "--keep-going", "--nolock", "--nocolor",
+        "--config", f"plan={workflow/'plan.json'}"]
+    command += ["--profile", profile] if profile else ["--cores", str(cores)]
+    with (study.folder / "snakemake.log").open("w") as log:
+        engine_ = subprocess.Popen(
+            command, stdout=log, stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL, preexec_fn=process.dieWithParent)
+        try:
+            while engine_.poll() is None:
+                time.sleep(0.2)
+                progress.update()
+        except KeyboardInterrupt:
+            engine_.kill()
+            engine_.wait()
+            print("\nStopped. The same command goes on from here", flush=True)
+            sys.exit(130)
+    progress.update()
+
+
+class Progress:
+    """One line for each design that gets its outcome."""
+
+    def __init__(self, study, strategy, chosen, atOnce):
+        self.study, self.strategy, self.atOnce = study, strategy, atOnce
+        self.waiting = []
+        self.total, self.times, self.finished = len(chosen), [], 0
+        for design in chosen:
+            outcome = outcomes.read(study, strategy, design.number)
+            if outcome:
+                self.finished += 1
+                self.times.append(sum(outcome["wall"].values()))
+            else:
+                self.waiting.append(design.number)
+        self.baseline = study.strategies[strategy].start != "template" and (
+            not outcomes.isDone(outcomes.read(study, outcomes.BASELINE)))
+        if self.baseline:
+            outcomes.path(study, outcomes.BASELINE).unlink(missing_ok=True)
+        print(f"{strategy}: {self.finished} of {self.total} designs are"
+              f" finished, {atOnce} at once", flush=True)
+
+    def update(self):
+        if self.baseline:
+            outcome = outcomes.read(self.study, outcomes.BASELINE)
+            if outcome:
+                self.baseline = False
+                print("baseline: " + describe(outcome), flush=True)
+        for number in list(self.waiting):
+            outcome = outcomes.read(self.study, self.strategy, number)
+            if outcome:
+                self.waiting.remove(number)
+                self.finished += 1
+                self.times.append(sum(outcome["wall"].values()))
+                print(f"[{self.finished}/{self.total}] {number:04d}: "
+                      f"{describe(outcome)}{self.left()}", flush=True)
+
+    def left(self):
+        if not self.waiting:
+            return ""
+        return "; some " + duration(
+            timeLeft(self.times, len(self.waiting), self.atOnce)) + " left"
+
+
+def timeLeft(times, count, atOnce):
+    """[s] for count designs, from what those before took."""
+    return sum(times)/len(times)*-(-count//atOnce)
+
+
+def duration(seconds):
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds/60:.0f} min" if seconds < 6000 else f"{seconds/3600:.1f} h"
+
+
+def describe(outcome):
+    times = ", ".join(f"{k} {v:.1f}" for k, v in outcome["wall"].items())
+    text = outcome["status"]
+    if outcome["reason"]:
+        text += f", {outcome['reason']}"
+    return f"{text} ({times} s)"

@@ -1,0 +1,217 @@
+"""One design, from an empty folder to its outcome. Started by the workflow
+engine:
+
+    python3 -m morphStudy.worker STUDYFILE SNAPSHOT STRATEGY NUMBER
+
+SNAPSHOT is the study file as it was when the sweep started; STRATEGY baseline
+with number 0 is the baseline. Exits with 0 once there is an outcome, be it a
+failure, and with 1 without one or where the baseline fails, as the designs
+cannot start without it."""
+
+import datetime
+import fcntl
+import os
+import re
+import shutil
+import sys
+
+from . import caseFolder, designs, outcomes, process, responses
+from .errors import StudyError
+from .studyFile import Strategy, Study
+
+
+
+class DesignFailed(Exception):
+    """The reason that is recorded."""
+
+
+class Worker:
+    """One design or the baseline."""
+
+    def __init__(self, study, strategy, number):
+        self.study, self.number = study, number or None
+        if strategy == outcomes.BASELINE:
+            self.strategy = Strategy(
+                strategy, "template", study.baselineSteps)
+            self.parameters = dict(study.baseline)
+            self.designs = []
+        else:
+            self.strategy = study.strategies[strategy]
+            self.designs = designs.read(study)
+            self.parameters = next(
+                d.parameters for d in self.designs if d.number == number)
+        self.case = outcomes.case(study, strategy, self.number)
+
+    def environment(self):
+        return {
+            **os.environ, "PWD": str(self.case),
+            "MORPHSTUDY_TEMPLATE": str(self.study.template),
+            "MORPHSTUDY_STUDY": str(self.study.root),
+            "MORPHSTUDY_BASELINE": str(
+                outcomes.case(self.study, outcomes.BASELINE))}
+
+    def work(self):
+        """Make, run, read; again where it fails and retries are left."""
+        for attempt in range(1, self.study.retries + 2):
+            self.outcome = {
+                "strategy": self.strategy.name, "number": self.number,
+                "parameters": self.parameters,
+                "derived": {
+                    d.name: float(self.study.values(self.parameters)[d.name])
+                    for d in self.study.derived},
+                "attempts": attempt, "startedFrom": "template", "wall": {},
+                "responses": {}, "quality": {}, "iterations": None,
+                "picture": "", "responseTexts": outcomes.responseTexts(
+                    self.study),
+                "made": outcomes.recipe(self.study, self.strategy.name)}
+            try:
+                self.makeCase()
+                self.runSteps()
+                self.outcome["responses"] = responses.read(
+                    self.study, self.case, self.parameters,
+                    self.environment())
+                status, reason = outcomes.DONE, ""
+            except (DesignFailed, StudyError, responses.ResponseError) as error:
+                status, reason = outcomes.FAILED, str(error)
+            self.outcome.update(status=status, reason=reason)
+            if status == outcomes.DONE:
+                break
+        self.readWhatThereIs()
+        if status == outcomes.DONE:
+            self.takePicture()
+        self.outcome["finished"] = datetime.datetime.now().isoformat(
+            timespec="seconds")
+        outcomes.write(self.study, self.outcome)
+        return status
+
+    def makeCase(self):
+        """The case folder, anew."""
+        shutil.rmtree(self.case, ignore_errors=True)
+        self.case.parent.mkdir(parents=True, exist_ok=True)
+        if self.strategy.start == "template":
+            caseFolder.copyTemplate(self.study, self.case)
+        else:
+            caseFolder.copyCase(
+                outcomes.case(self.study, outcomes.BASELINE), self.case)
+            self.outcome["startedFrom"] = outcomes.BASELINE
+            if self.strategy.start == "nearest":
+                self.takeNearestFields()
+        caseFolder.writeParameters(self.study, self.case, self.parameters)
+
+    def takeNearestFields(self):
+        """Of the nearest design with a smaller number that did not fail."""
+        for number in nearer(self.study, self.designs, self.number):
+            if outcomes.isDone(outcomes.read(
+                    self.study, self.strategy.name, number)):
+                caseFolder.replaceFields(
+                    outcomes.case(self.study, self.strategy.name, number),
+                    self.case)
+                self.outcome["startedFrom"] = f"{number:04d}"
+                return
+
+    def runSteps(self):
+        for step in self.strategy.steps:
+            log = self.case / f"log.{step.name}"
+            status, wall = process.run(
+                step.run, self.case, log, step.timeout, self.environment())
+            self.outcome["wall"][step.name] = round(wall, 3)
+            if status is None:
+                raise DesignFailed(
+                    f"{step.name}: timeout after {step.timeout:g} s")
+            if status != 0:
+                raise DesignFailed(
+                    f"{step.name}: {why(log, status)}")
+            if step.expect and not re.search(
+                    step.expect, log.read_text(errors="replace"),
+                    re.MULTILINE):
+                raise DesignFailed(f"{step.name}: its log does not say"
+                                   f" '{step.expect}'")
+
+    def readWhatThereIs(self):
+        """Iterations and mesh quality, of a failed design as well."""
+        step = self.study.iterationStep or self.strategy.steps[-1].name
+        log = self.case / f"log.{step}"
+        if log.exists():
+            self.outcome["iterations"] = len(re.findall(
+                self.study.iterationRegex, log.read_text(errors="replace"),
+                re.MULTILINE))
+        try:
+            names, rows = responses.columns(responses.newest(
+                self.case, "postProcessing/**/morphMesh/*/quality.dat"))
+        except responses.ResponseError:
+            return
+        self.outcome["quality"] = {
+            name: float(word) for name, word in zip(names, rows[-1])
+            if re.match(r"[-+]?[.\d]", word)}
+
+    def takePicture(self):
+        if not self.study.picture:
+            return
+        status, wall = process.run(
+            self.study.picture, self.case, self.case / "log.picture", 600,
+            self.environment())
+        file = self.case / "picture.png"
+        self.outcome["picture"] = (
+            str(file.relative_to(self.study.folder)) if file.exists()
+            else f"none: see {file.parent.name}/log.picture")
+
+
+def nearer(study, designs_, number):
+    """The designs with smaller numbers that are nearer to this one than the
+    baseline is, the nearest first; distances in units of the bounds. Which they
+    are depends on the table of designs alone, not on who finished first."""
+    span = study.highs - study.lows
+
+    def distance(a, b):
+        return sum(((a[n] - b[n])/s)**2 for n, s in zip(study.names, span))
+
+    own = next(d.parameters for d in designs_ if d.number == number)
+    limit = distance(own, study.baseline)
+    found = sorted(
+        (distance(own, d.parameters), d.number)
+        for d in designs_ if d.number < number)
+    return [n for far, n in found if far < limit]
+
+
+def why(log, status):
+    """The line of a log that says why the command failed."""
+    text = log.read_text(errors="replace")
+    invalid = re.search(
+        r"The moved mesh would be invalid:.*?(?=\nOf these|\nNothing|\Z)",
+        text, re.DOTALL)
+    if invalid:
+        return " ".join(invalid.group().split())[:300]
+    if "--> FOAM FATAL" in text:
+        return caseFolder.firstError(text)[:300]
+    if "sigFpe" in text or "Floating point exception" in text:
+        times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
+        return ("diverged, floating point exception"
+                + (f" at time {times[-1]}" if times else ""))
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    said = f" ({lines[-1][:200]})" if lines else ""
+    if status < 0:
+        return f"ended by signal {-status}{said}"
+    return f"exit status {status}{said}"
+
+
+def main(arguments):
+    path, snapshot, strategy, number = arguments
+    process.dieWithParent()
+    study = Study(path, snapshot)
+    number = int(number)
+    lock = study.folder / "outcomes" / f".lock.{strategy}.{number}"
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("w") as held:
+        # Another sweep's worker may still be at it, on a cluster
+        fcntl.flock(held, fcntl.LOCK_EX)
+        outcome = outcomes.read(study, strategy, number or None)
+        if outcome and (outcome["status"] == outcomes.DONE or number):
+            status = outcome["status"]
+        else:
+            status = Worker(study, strategy, number).work()
+    lock.unlink(missing_ok=True)
+    return 1 if strategy == outcomes.BASELINE and status != "done" else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
