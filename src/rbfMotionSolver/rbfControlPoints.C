@@ -21,7 +21,6 @@ License
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "globalMeshData.H"
-#include "positionTable.H"
 #include "surfaceNormals.H"
 #include "syncTools.H"
 #include "StringStream.H"
@@ -36,7 +35,8 @@ namespace Foam
 // written with six digits have not quite flat planes
 static const scalar planarAngle = 1e-3;
 
-// Listed points this close to a mesh point, in units of the mesh's size, are it
+// Points this close to the axis of a wedge, in units of the mesh's size, are on
+// it
 static const scalar samePlace = 1e-8;
 
 // More than any displacement, for points whose displacement is not known yet;
@@ -63,7 +63,8 @@ Foam::rbfControlPoints::rbfControlPoints
     points0_(points0),
     groups_(groups),
     plane_(plane),
-    featureAngle_(featureAngle)
+    featureAngle_(featureAngle),
+    listedPoints_(points0, groups, plane)
 {
     assign();
     own();
@@ -94,7 +95,7 @@ void Foam::rbfControlPoints::assign()
             group[pointi] = groupi;
         }
     }
-    assignListed(group, listed);
+    listedPoints_.assign(group, listed);
     syncTools::syncPointList(mesh_, group, minEqOp<label>(), none);
 
     DynamicList<label> labels;
@@ -123,150 +124,6 @@ void Foam::rbfControlPoints::assign()
             }
         }
         members_[groupi].transfer(mine);
-    }
-}
-
-
-void Foam::rbfControlPoints::assignListed(labelList& group, labelList& listed)
-{
-    DynamicList<point> all;
-    DynamicList<label> groupOf, placeOf;
-    forAll(groups_, groupi)
-    {
-        const pointField& x = groups_[groupi].listed();
-        forAll(x, i)
-        {
-            all.append(plane_.position(x[i]));
-            groupOf.append(groupi);
-            placeOf.append(i);
-        }
-    }
-    if (all.empty())
-    {
-        return;
-    }
-
-    const boolList first
-    (
-        firstAtPosition(pointField(all), groupOf, placeOf)
-    );
-    inplaceSubset(first, all);
-    inplaceSubset(first, groupOf);
-    inplaceSubset(first, placeOf);
-
-    const pointField positions(all);
-    const positionTable table(positions);
-    const scalar tolerance = samePlace*boundBox(points0_, true).mag();
-    boolList onMesh(positions.size(), false);
-    forAll(points0_, pointi)
-    {
-        const label i =
-            table.find(plane_.position(points0_[pointi]), tolerance);
-        if (i >= 0)
-        {
-            onMesh[i] = true;
-            if (groupOf[i] <= group[pointi])
-            {
-                group[pointi] = groupOf[i];
-                listed[pointi] = placeOf[i];
-            }
-        }
-    }
-
-    Pstream::listCombineGather(onMesh, orEqOp<bool>());
-    if (Pstream::master())
-    {
-        forAll(onMesh, i)
-        {
-            if (!onMesh[i])
-            {
-                freeGroup_.append(groupOf[i]);
-                freeListed_.append(placeOf[i]);
-            }
-        }
-    }
-}
-
-
-Foam::boolList Foam::rbfControlPoints::firstAtPosition
-(
-    const pointField& positions,
-    const labelList& groupOf,
-    const labelList& placeOf
-)
-{
-    labelList order(identity(positions.size()));
-    std::sort
-    (
-        order.begin(),
-        order.end(),
-        [&](const label a, const label b)
-        {
-            const point& x = positions[a];
-            const point& y = positions[b];
-            return
-                x != y
-              ? std::lexicographical_compare
-                (
-                    x.cdata(), x.cdata() + 3, y.cdata(), y.cdata() + 3
-                )
-              : a < b;
-        }
-    );
-
-    twins_.setSize(groups_.size());
-    boolList first(positions.size(), true);
-    label former = -1;
-    for (const label i : order)
-    {
-        if (former < 0 || positions[i] != positions[former])
-        {
-            former = i;
-            continue;
-        }
-
-        // Listed in the order of the groups: the former is of the earlier one
-        first[i] = false;
-        if (groupOf[i] == groupOf[former])
-        {
-            twins_[groupOf[i]].append(placeOf[former]);
-            twins_[groupOf[i]].append(placeOf[i]);
-        }
-    }
-    return first;
-}
-
-
-void Foam::rbfControlPoints::checkTwins() const
-{
-    forAll(twins_, groupi)
-    {
-        const labelList places(twins_[groupi]);
-        if (places.empty())
-        {
-            continue;
-        }
-
-        // The same on every rank
-        const controlPointGroup& group = groups_[groupi];
-        const pointField x(group.listed(), places);
-        const labelList meshPoints(places.size(), -1);
-        const tmp<vectorField> td(group.displacement({x, meshPoints, places}));
-        const vectorField& d = td();
-        for (label i = 0; i < d.size(); i += 2)
-        {
-            const vector a = plane_.reduce(x[i], d[i]);
-            const vector b = plane_.reduce(x[i + 1], d[i + 1]);
-            if (mag(a - b) > 1e-8*max(mag(a), mag(b)))
-            {
-                FatalIOErrorInFunction(group.dict())
-                    << "Contradicting control points: group '" << group.name()
-                    << "' lists " << x[i] << " twice, with displacements "
-                    << d[i] << " and " << d[i + 1] << nl
-                    << "    Give coincident points one displacement, or remove"
-                    << " all but one of them" << nl << exit(FatalIOError);
-            }
-        }
     }
 }
 
@@ -355,42 +212,6 @@ Foam::vectorField Foam::rbfControlPoints::displacements() const
     forAll(d, i)
     {
         d[i] = plane_.reduce(points0_[controlled_[i]], d[i]);
-    }
-    return d;
-}
-
-
-Foam::vectorField Foam::rbfControlPoints::freeDisplacements() const
-{
-    vectorField d(freeGroup_.size());
-    forAll(groups_, groupi)
-    {
-        DynamicList<label> mine, listed;
-        DynamicList<point> positions;
-        forAll(freeGroup_, i)
-        {
-            if (freeGroup_[i] == groupi)
-            {
-                mine.append(i);
-                listed.append(freeListed_[i]);
-                positions.append(groups_[groupi].listed()[freeListed_[i]]);
-            }
-        }
-        if (groups_[groupi].listed().empty())
-        {
-            continue;
-        }
-        const pointField x(positions);
-        const labelList meshPoints(mine.size(), -1);
-        const labelList places(listed);
-        const tmp<vectorField> tvalues
-        (
-            groups_[groupi].displacement({x, meshPoints, places})
-        );
-        forAll(mine, i)
-        {
-            d[mine[i]] = plane_.reduce(x[i], tvalues()[i]);
-        }
     }
     return d;
 }
@@ -542,9 +363,9 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
             labels.append(controlled_[i]);
         }
     }
-    forAll(freeGroup_, i)
+    forAll(freeValues, i)
     {
-        const point& x = groups_[freeGroup_[i]].listed()[freeListed_[i]];
+        const point x = listedPoints_.position(i);
         all.push_back(condition(x, false, List<vector>(), freeValues[i]));
         labels.append(-1);
     }
@@ -604,7 +425,6 @@ bool Foam::rbfControlPoints::update()
         (returnReduce(first, andOp<bool>()) || surfacesMove)
      && updateNormals();
 
-    checkTwins();
     const vectorField d(displacements());
     conditions_.setSize(controlled_.size());
     forAll(controlled_, i)
@@ -614,7 +434,7 @@ bool Foam::rbfControlPoints::update()
         conditions_[i] =
             condition(points0_[controlled_[i]], slides, normals_[i], d[i]);
     }
-    collectCandidates(freeDisplacements());
+    collectCandidates(listedPoints_.displacements());
     return changed;
 }
 
