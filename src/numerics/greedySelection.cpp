@@ -27,6 +27,14 @@ constexpr double cellFraction = 0.4;
 // Candidates in the list for each that is taken from it at most
 constexpr Index listFactor = 3;
 
+// Renewed values that do not settle: the error has to halve in this many
+// solutions, or the iteration ends
+constexpr std::size_t patience = 8;
+
+// What renewed values leave at selected points, in tolerances: so small that
+// other candidates are within the tolerance again when a motion comes back
+constexpr double settled = 0.1;
+
 // Points taken in one go where every candidate is to be selected
 constexpr Index blockOfAll = 256;
 
@@ -273,6 +281,35 @@ SelectionResult GreedySelection::select
     const Observer& observer
 )
 {
+    return run(candidates, communicator, Sweep(), observer);
+}
+
+
+SelectionResult GreedySelection::select
+(
+    ControlPoints& candidates,
+    Communicator& communicator,
+    const Renewal& renewal,
+    const Observer& observer
+)
+{
+    if (!renewal)
+    {
+        return run(candidates, communicator, Sweep(), observer);
+    }
+    const auto renew = [&](const Vectors& s) { renewal(s, candidates); };
+    return run(candidates, communicator, renew, observer);
+}
+
+
+SelectionResult GreedySelection::run
+(
+    const ControlPoints& candidates,
+    Communicator& communicator,
+    const Sweep& renew,
+    const Observer& observer
+)
+{
     SelectionResult result;
     result.largestDisplacement = largestValue(candidates, communicator);
     result.tolerance = settings_.tolerance*result.largestDisplacement;
@@ -291,11 +328,16 @@ SelectionResult GreedySelection::select
     }
 
     const Index before = origins_.size();
+    const bool renewed = bool(renew);
+    std::vector<double> history;
+
+    // What was selected before meets the new values first
+    bool settles = renewed && before > 0;
     do
     {
         {
             Stopwatch time(result.sweepTime);
-            sweep(candidates);
+            sweep(candidates, renew);
             ++result.sweeps;
         }
         if (observer)
@@ -305,7 +347,12 @@ SelectionResult GreedySelection::select
             observer(result);
         }
     }
-    while (addPoints(candidates, communicator, result));
+    while
+    (
+        (settles = settles && approach(candidates, communicator, history, result))
+     || addPoints(candidates, communicator, renewed, result)
+     || (renewed && approach(candidates, communicator, history, result))
+    );
 
     result.added = Index(origins_.size()) - before;
     summarise(candidates, communicator, result);
@@ -317,6 +364,7 @@ bool GreedySelection::addPoints
 (
     const ControlPoints& candidates,
     Communicator& communicator,
+    bool renewed,
     SelectionResult& result
 )
 {
@@ -368,6 +416,43 @@ bool GreedySelection::addPoints
       ? take(entry, communicator.rank())
       : reject(entry, communicator.rank());
     }
+    if (renewed)
+    {
+        refreshValues(candidates, communicator);
+    }
+    system_->solve(interpolant_);
+    return true;
+}
+
+
+bool GreedySelection::approach
+(
+    const ControlPoints& candidates,
+    Communicator& communicator,
+    std::vector<double>& history,
+    SelectionResult& result
+)
+{
+    double largest = 0;
+    for (std::size_t i = 0; i < mine_.size(); ++i)
+    {
+        if (mine_[i])
+        {
+            largest = std::max(largest, errors_.norms[i]);
+        }
+    }
+    largest = communicator.max(largest);
+    history.push_back(largest);
+    const std::size_t n = history.size();
+    const bool stalls = n > patience && largest > 0.5*history[n - 1 - patience];
+    if (largest <= settled*result.tolerance || stalls)
+    {
+        return false;
+    }
+
+    Stopwatch time(result.solveTime);
+    ++result.renewals;
+    refreshValues(candidates, communicator);
     system_->solve(interpolant_);
     return true;
 }
@@ -482,9 +567,13 @@ void GreedySelection::refreshValues
 }
 
 
-void GreedySelection::sweep(const ControlPoints& candidates)
+void GreedySelection::sweep(const ControlPoints& candidates, const Sweep& renew)
 {
     const Vectors s = system_->evaluate(interpolant_, *cloud_);
+    if (renew)
+    {
+        renew(s);
+    }
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
         const Vector3 r = candidates[i].residual(s.row(i).transpose());

@@ -73,8 +73,10 @@ struct SelectionResult
     // machine epsilon x sum |gamma| [m]
     double roundOff = 0;
 
-    // Points that were added by this call, and sweeps over the candidates
+    // Points that were added by this call, sweeps over the candidates, and how
+    // often the system was solved again for renewed values alone
     Index added = 0;
+    Index renewals = 0;
     Index sweeps = 0;
 
     // Wall time of this rank [s]: evaluation of the candidates, choice of
@@ -103,6 +105,11 @@ public:
     // Told after every sweep what has been reached so far
     using Observer = std::function<void(const SelectionResult&)>;
 
+    // Given the displacements (n x 3) at this rank's candidates after a sweep,
+    // sets new values g of those candidates for which they follow from where
+    // the point has got to, as on a curved surface (slidingCondition.hpp)
+    using Renewal = std::function<void(const Vectors&, ControlPoints&)>;
+
     // Throws std::invalid_argument for settings that contradict each other
     GreedySelection
     (
@@ -127,6 +134,20 @@ public:
     (
         const ControlPoints& candidates,
         Communicator& communicator,
+        const Observer& observer = Observer()
+    );
+
+    // The same for values that depend on the displacement: ends when, with the
+    // values renewed after every sweep, no error of any candidate, selected or
+    // not, exceeds the tolerance; or when it does not get smaller any more. The
+    // tolerance is of the values that the candidates have at the start.
+    //
+    // The renewal has to be there on all ranks, or on none
+    SelectionResult select
+    (
+        ControlPoints& candidates,
+        Communicator& communicator,
+        const Renewal& renewal,
         const Observer& observer = Observer()
     );
 
@@ -175,15 +196,33 @@ private:
         Index index;
     };
 
+    // Called between the displacements of a sweep and its errors
+    using Sweep = std::function<void(const Vectors&)>;
+
+    SelectionResult run
+    (
+        const ControlPoints& candidates,
+        Communicator& communicator,
+        const Sweep& renew,
+        const Observer& observer
+    );
     void start(const ControlPoints& candidates, Communicator& communicator);
     void makeSystem(const ControlPoints& candidates, Communicator& c);
     void refreshValues(const ControlPoints& candidates, Communicator& c);
-    void sweep(const ControlPoints& candidates);
+    void sweep(const ControlPoints& candidates, const Sweep& renew);
     void appendBlocks(const std::vector<Listed>& points, int rank);
     bool addPoints
     (
         const ControlPoints& candidates,
         Communicator& communicator,
+        bool renewed,
+        SelectionResult& result
+    );
+    bool approach
+    (
+        const ControlPoints& candidates,
+        Communicator& communicator,
+        std::vector<double>& history,
         SelectionResult& result
     );
     Index pointsPerSweep() const;
