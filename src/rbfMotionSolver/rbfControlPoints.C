@@ -413,16 +413,24 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::rbfControlPoints::update()
+bool Foam::rbfControlPoints::surfacesMove() const
 {
-    bool surfacesMove = false;
     for (const controlPointGroup& group : groups_)
     {
-        surfacesMove = surfacesMove || (group.slides() && group.moves());
+        if (group.slides() && group.moves())
+        {
+            return true;
+        }
     }
+    return false;
+}
+
+
+bool Foam::rbfControlPoints::update()
+{
     const bool first = conditions_.empty() && candidates_.empty();
     const bool changed =
-        (returnReduce(first, andOp<bool>()) || surfacesMove)
+        (returnReduce(first, andOp<bool>()) || surfacesMove())
      && updateNormals();
 
     const vectorField d(displacements());

@@ -31,9 +31,6 @@ License
 #include "StringStream.H"
 #include "syncTools.H"
 
-#include <limits>
-#include <sstream>
-
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 namespace Foam
@@ -108,7 +105,13 @@ Foam::rbfMotionSolver::rbfMotionSolver
     ),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    supportRadius_(0)
+    state_(mesh),
+    supportRadius_
+    (
+        settings_.supportRadius > 0
+      ? settings_.supportRadius
+      : state_.supportRadius()
+    )
 {
     readPointDisplacement();
     initialise();
@@ -126,7 +129,13 @@ Foam::rbfMotionSolver::rbfMotionSolver
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    supportRadius_(0)
+    state_(mesh),
+    supportRadius_
+    (
+        settings_.supportRadius > 0
+      ? settings_.supportRadius
+      : state_.supportRadius()
+    )
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -178,38 +187,8 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 }
 
 
-void Foam::rbfMotionSolver::readProperties()
-{
-    if (settings_.supportRadius > 0)
-    {
-        return;
-    }
-    properties_.reset
-    (
-        new IOdictionary
-        (
-            IOobject
-            (
-                typeName + "Properties",
-                mesh().time().timeName(),
-                "uniform",
-                mesh(),
-                IOobject::READ_IF_PRESENT,
-                IOobject::AUTO_WRITE
-            )
-        )
-    );
-    string digits;
-    if (properties_->readIfPresent("supportRadius", digits))
-    {
-        readScalar(digits, supportRadius_);
-    }
-}
-
-
 void Foam::rbfMotionSolver::initialise()
 {
-    readProperties();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)
@@ -303,21 +282,71 @@ bool Foam::rbfMotionSolver::updateSupportRadius()
         // In steps, since every new radius is a new selection
         supportRadius_ = max(needed, radiusGrowth*former);
     }
-
-    if (properties_.valid())
-    {
-        // A string, since numbers are written with writePrecision digits
-        std::ostringstream digits;
-        digits.precision(std::numeric_limits<scalar>::max_digits10);
-        digits << supportRadius_;
-        properties_->set("supportRadius", string(digits.str()));
-    }
+    state_.setSupportRadius(supportRadius_);
     return supportRadius_ != former;
 }
 
 
-void Foam::rbfMotionSolver::select()
+void Foam::rbfMotionSolver::prepareSelection
+(
+    const bool first,
+    const bool newDirections,
+    const bool newRadius
+)
 {
+    // After a write this run goes on as one that restarts from it does
+    const bool written = state_.wasWritten();
+    if (!first && !written && !newDirections && !newRadius)
+    {
+        return;
+    }
+
+    // Directions that change from step to step are not known to a restart
+    restored_.clear();
+    if (!newRadius && !controlPoints_->surfacesMove())
+    {
+        if (first)
+        {
+            restored_ = state_.positionsAmong(controlPoints_->candidates());
+        }
+        else if (selection_)
+        {
+            restored_ = selection_->selectedPositions();
+        }
+    }
+    selection_.reset();
+}
+
+
+void Foam::rbfMotionSolver::makeSelection(morph::Communicator& communicator)
+{
+    exactSurface_.reset
+    (
+        new morph::ExactSurface(correctionReach*supportRadius_)
+    );
+    selection_.reset
+    (
+        new morph::GreedySelection
+        (
+            morph::Kernel(settings_.kernel, supportRadius_),
+            settings_.polynomial,
+            settings_.selection
+        )
+    );
+    if (!restored_.empty())
+    {
+        selection_->restore
+        (
+            restored_, controlPoints_->candidates(), communicator
+        );
+        restored_.clear();
+    }
+}
+
+
+void Foam::rbfMotionSolver::select(const bool first)
+{
+    const bool restored = !restored_.empty();
     const bool newSystem = !selection_;
     pstreamCommunicator communicator;
     morph::SelectionResult result;
@@ -325,19 +354,7 @@ void Foam::rbfMotionSolver::select()
     {
         if (newSystem)
         {
-            exactSurface_.reset
-            (
-                new morph::ExactSurface(correctionReach*supportRadius_)
-            );
-            selection_.reset
-            (
-                new morph::GreedySelection
-                (
-                    morph::Kernel(settings_.kernel, supportRadius_),
-                    settings_.polynomial,
-                    settings_.selection
-                )
-            );
+            makeSelection(communicator);
         }
         result = selection_->select
         (
@@ -351,6 +368,17 @@ void Foam::rbfMotionSolver::select()
     }
 
     if (newSystem || result.added > 0)
+    {
+        if (controlPoints_->surfacesMove())
+        {
+            state_.clearPositions();
+        }
+        else
+        {
+            state_.setPositions(selection_->selectedPositions());
+        }
+    }
+    if (result.added > 0 || (newSystem && (first || !restored)))
     {
         report_.summary(result);
         report_.warnOfTolerance(result, supportRadius_);
@@ -466,7 +494,8 @@ Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 
 void Foam::rbfMotionSolver::solve()
 {
-    if (!controlPoints_.valid())
+    const bool first = !controlPoints_.valid();
+    if (first)
     {
         makeGeometry();
     }
@@ -479,14 +508,11 @@ void Foam::rbfMotionSolver::solve()
 
     const bool newDirections = controlPoints_->update();
     const bool newRadius = updateSupportRadius();
-    if (newDirections || newRadius)
-    {
-        selection_.reset();
-    }
+    prepareSelection(first, newDirections, newRadius);
 
     if (supportRadius_ > 0)
     {
-        select();
+        select(first);
         clockTime timer;
         vectorField displacement(propagate());
         const scalar propagation = timer.timeIncrement();
@@ -550,6 +576,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     displacementMotionSolver::updateMesh(map);
 
     selection_.reset();
+    state_.clearPositions();
     cloud_.reset();
     controlPoints_.clear();
     plane_.clear();

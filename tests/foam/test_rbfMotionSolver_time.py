@@ -1,11 +1,11 @@
 """rbfMotionSolver in time: restarts.
 
-Source of truth: the uninterrupted run. Where one selection serves the whole
-motion, as it does where the displacement is one pattern that is scaled, a
-restart is the same to round-off. Otherwise the restarted run selects again,
-for its own first step, and both runs are within the tolerance of what is
-prescribed.
+Source of truth: the uninterrupted run, of which a run that is stopped and
+continued is the same to the last bit, in binary files, on any number of ranks
+and where they change in between.
 """
+
+import shutil
 
 import numpy as np
 import pytest
@@ -13,85 +13,165 @@ import pytest
 from boxCase import words, write_control
 from rbfCase import groups, rbf_case, reference, selections, side
 
-SPAN = np.sqrt(3)
 
-
-def read_binary(path):
-    """The points of a binary file."""
+def read_binary(path, kind=float, components=3):
+    """The list in a binary file."""
     data = path.read_bytes()
     start = data.index(b"(", data.index(b"}"))
     count = int(data[:start].split()[-1])
-    return np.frombuffer(data, float, 3*count, start + 1).reshape(-1, 3)
+    return np.frombuffer(
+        data, kind, components*count, start + 1).reshape(-1, components)
+
+
+def points_at(case, time):
+    """Those of a binary file, of all ranks in the order of the whole mesh."""
+    ranks = sorted(case.path.glob("processor[0-9]*"))
+    if not ranks:
+        return read_binary(case.path/f"{time}/polyMesh/points")
+    parts = [
+        (read_binary(rank/"constant/polyMesh/pointProcAddressing",
+                     np.int32, 1).ravel(),
+         read_binary(rank/f"{time}/polyMesh/points"))
+        for rank in ranks]
+    whole = np.full((1 + max(a.max() for a, _ in parts), 3), np.nan)
+    for labels, values in parts:
+        whole[labels] = values
+    assert not np.isnan(whole).any()
+    return whole
 
 
 # One pattern, scaled up and down
 PATTERN = ('type file; file "constant/top.txt";'
            " scale table ((0 0) (0.75 1) (1.25 0.2) (2 0.7));")
 
-# Here each step prescribes another pattern
+# Each step prescribes another pattern, and needs more control points
 TURN = ("type solidBody; solidBodyMotionFunction rotatingMotion;"
         " rotatingMotionCoeffs { origin (0.3 0.4 1); axis (0 1 3);"
         " omega 0.2; }")
 
-
-def runs(path, displacement, settings, end=2):
-    """Points and selections at the end, uninterrupted and restarted at 1."""
-    results = []
-    for name, stops in (("whole", [end]), ("parts", [1, end])):
-        case = rbf_case(path/name, coeffs=settings + groups(
-            top=f"type moving; patches (zMax); displacement"
-            f" {{ {displacement} }}",
-            bottom="type fixed; patches (zMin);",
-            walls='type sliding; patches ("[xy].*");'), cells=(6, 5, 4))
-        x = reference(case)
-        x = x[side(x, "zMax")]
-        values = np.stack([0.02*x[:, 1], 0.03*x[:, 0]**2,
-                           0.05 + 0.03*np.sin(5*x[:, 0])], 1)
-        (case.path/"constant/top.txt").write_text("".join(
-            f"{words(a)} {words(d)}\n" for a, d in zip(x, values)))
-        for stop in stops:
-            write_control(case, end=stop, deltaT=0.25, format="binary",
-                          startFrom="latestTime")
-            output = case.run("moveDynamicMesh")
-        results.append((read_binary(case.path/f"{end}/polyMesh/points"),
-                        selections(output)))
-    (whole, selected), (parts, selected_again) = results
-    assert np.abs(whole - reference(case)).max() > 0.02
-    return whole, parts, selected, selected_again
-
-
 SOME = "supportRadius 1; greedy { tolerance 1e-2; }"
 
 
-def test_a_scaled_pattern_restarts_to_round_off(tmp_path):
-    whole, parts, selected, again = runs(tmp_path, PATTERN, SOME)
+def turning_case(path, settings=SOME, displacement=TURN, walls=""):
+    """A box whose top moves."""
+    case = rbf_case(path, coeffs=settings + groups(
+        top=f"type moving; patches (zMax); displacement {{ {displacement} }}",
+        bottom="type fixed; patches (zMin);",
+        walls=f'type sliding; patches ("[xy].*"); {walls}'), cells=(6, 5, 4))
+    x = reference(case)
+    x = x[side(x, "zMax")]
+    values = np.stack([0.02*x[:, 1], 0.03*x[:, 0]**2,
+                       0.05 + 0.03*np.sin(5*x[:, 0])], 1)
+    (case.path/"constant/top.txt").write_text("".join(
+        f"{words(a)} {words(d)}\n" for a, d in zip(x, values)))
+    return case
+
+
+def advance(case, end, ranks=1, **control):
+    write_control(case, end=end, **{
+        "deltaT": 0.25, "format": "binary", "startFrom": "latestTime",
+        "writeInterval": 2, **control})
+    return case.run("moveDynamicMesh", ranks=ranks)
+
+
+def whole_and_parts(path, **given):
+    """Points and selections at the end, uninterrupted and restarted at 1."""
+    results = []
+    for name, stops in (("whole", [2]), ("parts", [1, 2])):
+        case = turning_case(path/name, **given)
+        for stop in stops:
+            output = advance(case, stop)
+        results += [points_at(case, 2), selections(output)]
+    assert np.abs(results[0] - reference(case)).max() > 0.02
+    return results
+
+
+def test_a_turning_body_restarts_to_the_last_bit(tmp_path):
+    whole, selected, parts, again = whole_and_parts(tmp_path)
+    # What was selected at first does not suffice to the end
+    assert len(selected) > 1
+    assert again[0][0] > selected[0][0]
+    np.testing.assert_array_equal(parts, whole)
+
+
+@pytest.mark.parametrize("settings", [
+    "supportRadius 1; selection all;",
+    "supportRadiusFactor 4; greedy { tolerance 1e-2; }",
+    "kernel thinPlate; greedy { tolerance 1e-2; }",
+    "supportRadius 1; surfaceCorrection yes; greedy { tolerance 5e-2; }",
+    "supportRadius 1; greedy { tolerance 5e-2; algorithm standard; }"])
+def test_settings_restart_to_the_last_bit(tmp_path, settings):
+    whole, _, parts, _ = whole_and_parts(tmp_path, settings=settings)
+    np.testing.assert_array_equal(parts, whole)
+
+
+def test_surfaces_that_move_restart_to_the_last_bit(tmp_path):
+    whole, _, parts, _ = whole_and_parts(
+        tmp_path, walls="displacement { type solidBody;"
+        " solidBodyMotionFunction rotatingMotion; rotatingMotionCoeffs"
+        " { origin (0.5 0.5 0); axis (0 0 1); omega 0.1; } }")
+    np.testing.assert_array_equal(parts, whole)
+
+
+def test_a_scaled_pattern_is_selected_once_and_for_all_restarts(tmp_path):
+    whole, selected, parts, again = whole_and_parts(
+        tmp_path, displacement=PATTERN)
+    assert len(selected) == 1
     assert [s[:2] for s in selected] == [s[:2] for s in again]
-    assert selected[0][0] < selected[0][1]
-    np.testing.assert_allclose(parts, whole, rtol=0, atol=1e-13*SPAN)
+    np.testing.assert_array_equal(parts, whole)
 
 
-def test_the_support_radius_of_the_largest_displacement_survives_a_restart(
-        tmp_path):
-    # It grows with the displacement until 0.75 and is kept from there on
-    whole, parts, selected, again = runs(
-        tmp_path, PATTERN, "supportRadiusFactor 4; greedy { tolerance 1e-2; }")
-    assert len(selected) == 3
-    assert selected[-1][:2] == again[-1][:2]
-    np.testing.assert_allclose(parts, whole, rtol=0, atol=1e-13*SPAN)
+def test_ascii_files_restart_to_their_digits(tmp_path):
+    results = []
+    for name, stops in (("whole", [2]), ("parts", [1, 2])):
+        case = turning_case(tmp_path/name)
+        for stop in stops:
+            advance(case, stop, format="ascii", digits=6)
+        results.append(case.points("2/polyMesh/points"))
+    np.testing.assert_array_equal(*results)
 
 
-@pytest.mark.parametrize("tolerance", [3e-2, 1e-2])
-def test_another_pattern_restarts_to_the_tolerance(tmp_path, tolerance):
-    # The runs may select other points: both are within the tolerance, times
-    # the largest displacement, at control points, and about so elsewhere
-    whole, parts, selected, _ = runs(
-        tmp_path, TURN, f"supportRadius 1; greedy {{ tolerance {tolerance}; }}")
-    n, candidates, _, allowed = selected[-1]
-    assert n < candidates
-    assert np.abs(parts - whole).max() <= 3*allowed
+def test_any_number_of_ranks_may_continue(tmp_path):
+    whole = turning_case(tmp_path/"whole")
+    advance(whole, 2)
+    expected = points_at(whole, 2)
+
+    case = turning_case(tmp_path/"parts")
+    write_control(case, end=2, deltaT=0.25, format="binary",
+                  startFrom="latestTime")
+    case.decompose((2, 1, 1))
+    advance(case, 1, ranks=2)
+    case.run("reconstructPar", "-latestTime")
+    for rank in case.path.glob("processor*"):
+        shutil.rmtree(rank)
+    case.decompose((1, 3, 1), "-latestTime")
+    advance(case, 1.5, ranks=3)
+    np.testing.assert_array_equal(points_at(case, 1.5), points_at(whole, 1.5))
+    case.run("reconstructPar", "-latestTime")
+    for rank in case.path.glob("processor*"):
+        shutil.rmtree(rank)
+    advance(case, 2)
+    np.testing.assert_array_equal(points_at(case, 2), expected)
 
 
-def test_every_point_restarts_to_round_off(tmp_path):
-    whole, parts, _, _ = runs(tmp_path, TURN,
-                              "supportRadius 1; selection all;")
-    np.testing.assert_allclose(parts, whole, rtol=0, atol=1e-13*SPAN)
+def test_without_its_file_a_restart_selects_anew(tmp_path):
+    case = turning_case(tmp_path/"whole")
+    first = selections(advance(case, 1))
+    advance(case, 2)
+    expected = points_at(case, 2)
+    shutil.rmtree(case.path/"2")
+    (case.path/"1/uniform/rbfMotionSolverProperties").unlink()
+    again = selections(advance(case, 2))
+    assert again[0] != first[-1]
+    # Both are within the tolerance at control points and about so elsewhere
+    assert np.abs(points_at(case, 2) - expected).max() <= 3*again[-1][3]
+
+
+def test_control_points_that_are_gone_are_announced(tmp_path):
+    case = turning_case(tmp_path/"whole")
+    advance(case, 1)
+    dictionary = case.path/"constant/dynamicMeshDict"
+    dictionary.write_text(dictionary.read_text().replace('"[xy].*"', '"x.*"'))
+    output = advance(case, 2)
+    assert "selected anew" in output
+    assert selections(output)
