@@ -74,9 +74,10 @@ def keepUp(study, strategy, numbers):
             continue
         changed = outcomes.changes(study, name, outcome)
         if changed:
-            what = f"design {number:04d}" if number else "the baseline"
+            what = f"design {number:04d} of {name}" if number else (
+                "the baseline")
             raise StudyError(
-                f"{what} of {name} was made with another study file: "
+                f"{what} was made with another study file: "
                 + ", ".join(changed) + " differ. Use another folder, or remove"
                 f" {outcomes.path(study, name, number)} to have it made anew")
         if outcome["responseTexts"] != outcomes.responseTexts(study):
