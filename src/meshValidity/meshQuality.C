@@ -24,6 +24,40 @@ License
 #include "unitConversion.H"
 #include "IOmanip.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Lower bounds of so many equal bins
+static scalarList equalBins(const label n, const scalar width)
+{
+    scalarList from(n);
+    forAll(from, i)
+    {
+        from[i] = i*width;
+    }
+    return from;
+}
+
+
+static bitSet betweenCells(const polyMesh& mesh)
+{
+    bitSet faces(mesh.nFaces());
+    faces.set(identity(mesh.nInternalFaces()));
+    for (const polyPatch& patch : mesh.boundaryMesh())
+    {
+        if (patch.coupled())
+        {
+            faces.set(identity(patch.size(), patch.start()));
+        }
+    }
+    return faces;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::meshQuality::checkCells
@@ -91,8 +125,20 @@ void Foam::meshQuality::checkFaces
     );
     maxSkewness_ = gMax(skewness);
 
+    const bitSet once(syncTools::getMasterFaces(mesh));
+    const bitSet between(betweenCells(mesh) & once);
+    nonOrthogonality_.count
+    (
+        radToDeg(acos(max(-1.0, min(1.0, cosines)))), between
+    );
+    skewness_.count(skewness, once);
+    volumeRatio_.count
+    (
+        polyMeshTools::volRatio(mesh, geometry.cellVolumes()), between
+    );
+
     bitSet wrong(movedGeometry::nonPositive(geometry.syncedPyramidVolumes()));
-    wrong &= syncTools::getMasterFaces(mesh);
+    wrong &= once;
     nWrongFaces_ = returnReduce(label(wrong.count()), sumOp<label>());
 }
 
@@ -100,6 +146,10 @@ void Foam::meshQuality::checkFaces
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::meshQuality::meshQuality(const polyMesh& mesh, const pointField& points)
+:
+    nonOrthogonality_("nonOrthogonality", equalBins(19, 5)),
+    skewness_("skewness", {0, 0.1, 0.2, 0.4, 0.6, 0.8, 1, 1.5, 2, 3, 4}),
+    volumeRatio_("volumeRatio", equalBins(10, 0.1))
 {
     const movedGeometry geometry(mesh, points);
     checkCells(mesh, geometry);
@@ -136,6 +186,22 @@ void Foam::meshQuality::writeRow(Ostream& os, const word& name) const
         << ' ' << setw(18) << maxAspectRatio_
         << ' ' << setw(20) << nWrongFaces_
         << ' ' << setw(16) << nNonPositiveCells_ << endl;
+}
+
+
+void Foam::meshQuality::writeHistograms
+(
+    Ostream& os,
+    const meshQuality& before,
+    const meshQuality& after
+)
+{
+    typedef faceHistogram histogram;
+
+    histogram::writeHeader(os);
+    histogram::writeRows(os, before.nonOrthogonality_, after.nonOrthogonality_);
+    histogram::writeRows(os, before.skewness_, after.skewness_);
+    histogram::writeRows(os, before.volumeRatio_, after.volumeRatio_);
 }
 
 

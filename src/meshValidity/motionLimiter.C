@@ -37,6 +37,9 @@ Foam::motionLimiter::policyNames
     { policy::ignore, "ignore" }
 });
 
+const char* const Foam::motionLimiter::failed =
+    "Failed: the moved mesh would be invalid";
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -138,6 +141,7 @@ void Foam::motionLimiter::refuse
         record->note(fraction, 0);
         record->write();
     }
+    Info<< failed << endl;
     FatalIOErrorInFunction(dict_)
         << "The motion makes the mesh invalid: " << fraction.whole() << nl
         << "    It is valid up to the fraction " << fraction.value()

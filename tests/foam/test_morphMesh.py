@@ -136,7 +136,9 @@ def test_leaves_other_fields_of_the_time_and_the_zones_as_they_are(tmp_path):
     assert set(after) - set(before) == {
         "constant/polyMesh/points0", "postProcessing",
         "postProcessing/morphMesh", "postProcessing/morphMesh/0",
-        "postProcessing/morphMesh/0/quality.dat"}
+        "postProcessing/morphMesh/0/quality.dat",
+        "postProcessing/morphMesh/0/histogram.dat",
+        "postProcessing/morphMesh/0/motion"}
 
 
 def test_displacement_written_to_the_time_is_that_of_the_points(tmp_path):
@@ -381,9 +383,11 @@ def test_a_motion_that_folds_the_mesh_is_refused(tmp_path, ranks, options):
     case = make_box(tmp_path, top="0 0 -1.5")
     if ranks > 1:
         case.decompose((2, 1, 1))
-    before = case.tree()
+    tree = (case.tree if "-dryRun" in options
+            else case.tree_without_reports)
+    before = tree()
     output = case.run("morphMesh", *options, ranks=ranks, status=1)
-    assert case.tree() == before
+    assert tree() == before
     assert "The moved mesh would be invalid" in output
     assert "64 cells without positive volume, the worst at (" in output
     assert "Nothing was written" in output

@@ -11,8 +11,10 @@ import re
 import numpy as np
 import pytest
 
-from rbfCase import groups, points_at, rbf_case, reference, ulps
+from boxCase import fixed
+from rbfCase import groups, points_at, rbf_case, reference
 
+FAILED = "\nFailed: the moved mesh would be invalid\n"
 LIMIT = "onInvalidMesh limit;\n"
 BOTTOM = "type fixed; patches (zMin);"
 
@@ -27,10 +29,22 @@ def lowered(height):
     return top(f"type uniform; value (0 0 {-height});")
 
 
-def turned(angle):
-    return top("type solidBody; solidBodyMotionFunction axisRotationMotion;"
-               "axisRotationMotionCoeffs { origin (0.5 0.5 0);"
-               f" radialVelocity (0 0 {angle}); }}")
+def screwed(case, angle, depth):
+    """A table that turns and lowers the top of a case; what it says."""
+    x = reference(case)
+    a = np.radians(angle)
+    turn = np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
+    s = np.zeros_like(x)
+    up = x[:, 2] > 1 - 1e-9
+    s[up, :2] = (x[up, :2] - 0.5) @ turn.T - (x[up, :2] - 0.5)
+    s[up, 2] = -depth
+    (case.path/"constant/screw.txt").write_text("".join(
+        " ".join(repr(float(v)) for v in (*p, *d)) + "\n"
+        for p, d in zip(x[up], s[up])))
+    return s
+
+
+SCREW = top('type file; file "constant/screw.txt";')
 
 
 def motion(case, time="1", folder="invalidMotion"):
@@ -114,6 +128,21 @@ def test_a_layer_is_lowered_to_a_tenth_of_its_height(tmp_path):
     assert "Mesh OK" in case.run("checkMesh", "-latestTime")
 
 
+@pytest.mark.parametrize("angle", [20, 120])
+def test_a_screwed_layer_goes_as_far_as_its_first_tetrahedron(tmp_path, angle):
+    case = rbf_case(tmp_path, coeffs=LIMIT + SCREW, cells=(3, 3, 1))
+    x, s = reference(case), screwed(case, angle, 1.4)
+    _, _, _, criterion = limited(case.run("morphMesh", "-time", 1))
+
+    expected = first_flat(x, s, one_layer(3))
+    assert criterion == "tetrahedra"
+    record = motion(case, folder="morphMesh")
+    assert float(record["attainable"]) == pytest.approx(expected, abs=1e-12)
+    assert float(record["moved"]) == pytest.approx(0.9*expected, abs=1e-12)
+    np.testing.assert_allclose(
+        points_at(case, "1"), x + 0.9*expected*s, atol=1e-11)
+
+
 def test_a_valid_motion_is_made_as_if_nothing_had_been_said(tmp_path):
     plain = rbf_case(tmp_path/"plain", coeffs=lowered(0.5))
     limit = rbf_case(tmp_path/"limit", coeffs=LIMIT + lowered(0.5))
@@ -123,6 +152,25 @@ def test_a_valid_motion_is_made_as_if_nothing_had_been_said(tmp_path):
     assert np.array_equal(points_at(plain, "1"), points_at(limit, "1"))
     assert not (limit.path/"postProcessing").exists()
     assert not (limit.path/"constant/polyMesh/sets").exists()
+
+
+def test_limited_motions_are_the_same_on_any_number_of_ranks(tmp_path):
+    results = {}
+    for ranks, split in {1: None, 2: (2, 1, 1), 3: (1, 3, 1),
+                         4: (2, 1, 2)}.items():
+        case = rbf_case(tmp_path/str(ranks), coeffs=LIMIT + SCREW,
+                        cells=(4, 3, 4))
+        screwed(case, 60, 1.1)
+        if split:
+            case.decompose(split)
+        case.run("morphMesh", "-time", 1, ranks=ranks)
+        record = motion(case, folder="morphMesh")
+        results[ranks] = points_at(case, "1"), record
+    points, record = results[1]
+    assert 0 < float(record["attainable"]) < 1
+    for ranks in (2, 3, 4):
+        assert results[ranks][1] == record
+        assert np.array_equal(results[ranks][0], points)
 
 
 # --- what was wrong before
@@ -188,3 +236,82 @@ def test_the_cells_that_stop_a_motion_are_reported(tmp_path, policy):
         actions ({ name seen; type cellSet; action new; source cellToCell;
                    set invalidMotionCells; });""")
     assert "now size 2" in case.run("topoSet")
+
+
+def test_morphMesh_reports_into_its_own_folder_but_not_in_a_dry_run(tmp_path):
+    case = rbf_case(tmp_path, coeffs=lowered(1.5), cells=(3, 3, 1))
+    before = case.tree()
+    output = case.run("morphMesh", "-time", 1, "-dryRun", status=1)
+    assert case.tree() == before
+    assert FAILED in output
+
+    output = case.run("morphMesh", "-time", 1, status=1)
+    assert case.tree_without_reports() == before
+    assert FAILED in output
+    assert {p.name for p in (tmp_path/"postProcessing/morphMesh/1").iterdir()
+            } == {"motion", "invalidCells.vtk"}
+    record = motion(case, folder="morphMesh")
+    assert float(record["attainable"]) == pytest.approx(2/3, rel=1e-5)
+    assert float(record["moved"]) == 0
+
+
+def test_how_far_a_motion_of_another_solver_may_go_is_recorded(tmp_path):
+    # Laplace's equation: the heights of all cells are 1 - 1.6 t of their own
+    case = rbf_case(tmp_path, control={"end": 1}, conditions={
+        "zMax": fixed(0, 0, -1.6), "zMin": fixed(0, 0, 0),
+        **{side: "zeroGradient" for side in ("xMin", "xMax", "yMin", "yMax")}})
+    case.write("constant/dynamicMeshDict", "dictionary", """
+        motionSolverLibs (fvMotionSolvers); motionSolver displacementLaplacian;
+        displacementLaplacianCoeffs { diffusivity uniform; }""")
+    output = case.run("morphMesh", status=1)
+    assert FAILED in output and "The moved mesh would be invalid" in output
+    record = motion(case, "0", "morphMesh")
+    assert float(record["attainable"]) == pytest.approx(1/1.6, rel=1e-5)
+    assert len(cell_set(
+        case.path/"constant/polyMesh/sets/invalidMotionCells")) == 64
+
+
+def test_a_valid_motion_is_recorded_as_attainable(tmp_path):
+    case = rbf_case(tmp_path, coeffs=lowered(0.5), cells=(3, 3, 1))
+    case.run("morphMesh", "-time", 1)
+    assert motion(case, folder="morphMesh") == {
+        "attainable": "1", "moved": "1", "stoppedBy": "none", "subSteps": "1"}
+    assert "0.5" not in case.run("foamDictionary", "-entry", "attainable",
+                                 "-value",
+                                 "postProcessing/morphMesh/1/motion")
+
+
+# --- histograms
+
+
+def test_the_histogram_counts_every_face_once(tmp_path):
+    # Shear by 1: faces that were at right angles are at 45 degrees
+    shear = top("type uniform; value (1 0 0);")
+    serial = rbf_case(tmp_path/"1", coeffs=shear, cells=(4, 3, 1))
+    serial.run("morphMesh", "-time", 1)
+    rows = re.findall(
+        r"^(\w+)\s+(\S+)\s+(\S+)\s+(\d+)\s+(\d+)$",
+        (serial.path/"postProcessing/morphMesh/1/histogram.dat").read_text(),
+        re.MULTILINE)
+    count = {(name, float(low)): (int(before), int(after))
+             for name, low, _, before, after in rows}
+    internal, boundary = 3*3 + 4*2, 2*3 + 2*4 + 2*4*3
+
+    def total(name, i):
+        return sum(n[i] for (key, _), n in count.items() if key == name)
+
+    for i in (0, 1):
+        assert total("nonOrthogonality", i) == internal
+        assert total("volumeRatio", i) == internal
+        assert total("skewness", i) == internal + boundary
+    # Sheared in x by the height 1: normals of x faces turn by 45 degrees
+    assert count["nonOrthogonality", 0] == (internal, 4*2)
+    assert sum(count["nonOrthogonality", low][1]
+               for low in (40, 45)) == 3*3
+    assert count["volumeRatio", 0.9] == (internal, internal)
+
+    parallel = rbf_case(tmp_path/"2", coeffs=shear, cells=(4, 3, 1))
+    parallel.decompose((2, 1, 1))
+    parallel.run("morphMesh", "-time", 1, ranks=2)
+    name = "postProcessing/morphMesh/1/histogram.dat"
+    assert (parallel.path/name).read_text() == (serial.path/name).read_text()

@@ -1,0 +1,212 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "morphMeshInput.H"
+#include "argList.H"
+#include "faceIOList.H"
+#include "fvMesh.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The times that have a folder, for messages
+static wordList timeNames(const Time& runTime)
+{
+    DynamicList<word> names;
+    for (const instant& time : runTime.times())
+    {
+        if (time.name() != runTime.constant())
+        {
+            names.append(time.name());
+        }
+    }
+    return wordList(names);
+}
+
+
+//- The dictionary as it is, not yet that of a motion solver
+static IOdictionary readDynamicMeshDict(const fvMesh& mesh)
+{
+    IOobject io
+    (
+        "dynamicMeshDict",
+        mesh.time().constant(),
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+
+    const bool found = io.typeHeaderOk<IOdictionary>(true);
+    if (!returnReduce(found, andOp<bool>()))
+    {
+        FatalErrorInFunction
+            << "There is no dictionary "
+            << mesh.time().relativePath(io.objectPath())
+            << ": it names the motion solver that morphMesh applies."
+            << " Write it, with the entries motionSolver and, for solvers of"
+            << " a library, motionSolverLibs" << exit(FatalError);
+    }
+
+    return IOdictionary(io);
+}
+
+
+//- The solvers of sub-dictionaries, as dynamicMotionSolverListFvMesh has them
+static void readSolverList
+(
+    const fvMesh& mesh,
+    const IOdictionary& dict,
+    PtrList<motionSolver>& solvers
+)
+{
+    label n = 0;
+    const dictionary& list = dict.subDict("solvers");
+    solvers.setSize(list.size());
+
+    for (const entry& item : list)
+    {
+        if (item.isDict())
+        {
+            const IOobject io
+            (
+                item.keyword(),
+                mesh.time().constant(),
+                mesh,
+                IOobject::NO_READ,
+                IOobject::NO_WRITE,
+                false
+            );
+            const IOdictionary solverDict(io, item.dict());
+            solvers.set(n++, motionSolver::New(mesh, solverDict));
+        }
+    }
+
+    solvers.setSize(n);
+    if (n == 0)
+    {
+        FatalIOErrorInFunction(list)
+            << "The entry solvers holds no dictionary: no motion solver is"
+            << " given. Add one dictionary for each" << exit(FatalIOError);
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Functions  * * * * * * * * * * * * * * * //
+
+void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
+{
+    word name;
+    if (!args.readIfPresent("time", name))
+    {
+        return;
+    }
+
+    scalar value;
+    if (!readScalar(name, value))
+    {
+        FatalErrorInFunction
+            << "The option -time is '" << name << "', which is no number."
+            << " The times of this case are "
+            << flatOutput(timeNames(runTime)) << "; give one time, for example"
+            << " -time 0" << exit(FatalError);
+    }
+
+    const instantList times(runTime.times());
+    const label index = Time::findClosestTimeIndex(times, value, "constant");
+    const bool found =
+        index >= 0
+     && mag(times[index].value() - value) <= 10*SMALL*mag(value);
+
+    if (returnReduce(found, andOp<bool>()))
+    {
+        runTime.setTime(times[index], 0);
+        return;
+    }
+
+    runTime.setTime(value, 0);
+    Info<< "Time " << runTime.timeName() << " has no folder (there are "
+        << flatOutput(timeNames(runTime))
+        << "): the mesh is that of the time before,"
+        << " and a motion solver that reads a field from this time will stop."
+        << nl << endl;
+}
+
+
+void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionName)
+{
+    const fileName local
+    (
+        regionName == polyMesh::defaultRegion ? word::null : regionName
+    );
+    const fileName meshDir(local/polyMesh::meshSubDir);
+
+    IOobject io
+    (
+        "faces",
+        runTime.findInstance(meshDir, "faces", IOobject::READ_IF_PRESENT),
+        meshDir,
+        runTime
+    );
+
+    const bool found = io.typeHeaderOk<faceIOList>(false);
+    if (!returnReduce(found, andOp<bool>()))
+    {
+        FatalErrorInFunction
+            << "There is no mesh in " << runTime.constant()/meshDir
+            << " of case " << runTime.caseName()
+            << ": nothing to move. Make the mesh, or give the region"
+            << " (-region), the case (-case) or, for a decomposed case,"
+            << " -parallel" << exit(FatalError);
+    }
+}
+
+
+void Foam::morphMeshInput::readSolvers(const fvMesh& mesh, PtrList<motionSolver>& solvers)
+{
+    const IOdictionary dict(readDynamicMeshDict(mesh));
+
+    if (dict.isDict("solvers"))
+    {
+        readSolverList(mesh, dict, solvers);
+    }
+    else if (dict.found("motionSolver") || dict.found("solver"))
+    {
+        solvers.setSize(1);
+        solvers.set(0, motionSolver::New(mesh));
+    }
+    else
+    {
+        FatalIOErrorInFunction(dict)
+            << "There is neither an entry motionSolver nor a dictionary"
+            << " solvers: nothing says how to move the mesh. Add for example"
+            << " 'motionSolver rbfMotionSolver;' and"
+            << " 'motionSolverLibs (morphMotionSolvers);'"
+            << exit(FatalIOError);
+    }
+}
+
+
+// ************************************************************************* //
