@@ -1,0 +1,208 @@
+"""The verb report: one HTML page with what there is so far, pictures within."""
+
+import base64
+import csv
+import html
+import statistics
+import tempfile
+from pathlib import Path
+
+from . import designs, outcomes, plots, results
+
+STYLE = """
+body { font: 15px/1.5 sans-serif; max-width: 70em; margin: 2em auto;
+       padding: 0 1em; color: #222; }
+h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 2em; }
+table { border-collapse: collapse; font-size: 13px; margin: 1em 0; }
+th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #ddd;
+         font-variant-numeric: tabular-nums; }
+th { border-bottom: 2px solid #888; } td.text { text-align: left; }
+.wide { overflow-x: auto; } img { max-width: 100%; }
+figure { display: inline-block; margin: 0 1em 1em 0; width: 20em;
+         vertical-align: top; } figcaption { font-size: 13px; color: #555; }
+tr.failed td { background: #fdecea; }
+"""
+
+
+def text(value):
+    """A value as a reader wants it."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return html.escape("" if value is None else str(value))
+    return f"{number:.5g}"
+
+
+def table(rows, columns=None):
+    """An HTML table of dictionaries."""
+    if not rows:
+        return "<p>None.</p>"
+    columns = columns or list(dict.fromkeys(k for row in rows for k in row))
+    head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
+    body = ""
+    for row in rows:
+        # A design's number is a name
+        cells = "".join(
+            f"<td>{html.escape(str(row[c]))}</td>" if c == "design"
+            else '<td{}>{}</td>'.format(
+                ' class="text"' if c in ("reason", "where", "expression")
+                else "", text(row.get(c, ""))) for c in columns)
+        failed = ' class="failed"' if row.get("status") == "failed" else ""
+        body += f"<tr{failed}>{cells}</tr>\n"
+    return f'<div class="wide"><table><tr>{head}</tr>\n{body}</table></div>'
+
+
+def image(path, alt=""):
+    data = base64.b64encode(Path(path).read_bytes()).decode()
+    return f'<img alt="{html.escape(alt)}" src="data:image/png;base64,{data}">'
+
+
+def readTable(path):
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+class Report:
+    """Collects the page's parts."""
+
+    def __init__(self, study):
+        self.study, self.parts = study, []
+        self.scratch = tempfile.TemporaryDirectory()
+
+    def add(self, *parts):
+        self.parts += parts
+
+    def picture(self, make, *arguments):
+        """A picture that only the page needs."""
+        path = Path(self.scratch.name) / "picture.png"
+        make(*arguments, path)
+        self.add(f"<p>{image(path, make.__name__)}</p>")
+
+    def problem(self):
+        study = self.study
+        self.add(f"<h1>{html.escape(study.path.stem)}</h1>",
+                 "<h2>What was varied</h2>",
+                 table([{"parameter": p.name, "lowest": p.low,
+                         "highest": p.high, "baseline": p.baseline,
+                         "where": f"{p.target.file}: {p.target.entry}"
+                         if p.target else study.parametersFile}
+                        for p in study.parameters]))
+        if study.derived:
+            self.add(table([{"derived": d.name,
+                             "expression": d.expression.text,
+                             "baseline": study.baselineValues[d.name]}
+                            for d in study.derived]))
+        for condition in study.constraints:
+            self.add(f"<p><code>{html.escape(condition.text)}</code></p>")
+
+    def strategy(self, name):
+        """One strategy's designs, responses, models and optima."""
+        study = self.study
+        rows = results.rows(study, name)
+        done = [r for r in rows if r["status"] == outcomes.DONE]
+        failed = [r for r in rows if r["status"] == outcomes.FAILED]
+        self.add(f"<h2>Strategy {name}</h2>",
+                 f"<p>Starts from the {study.strategies[name].start}. Of"
+                 f" {len(designs.read(study))} designs"
+                 f" {sum(r['origin'] != 'baseline' for r in done)} are done and"
+                 f" {len(failed)} failed.</p>")
+        self.picture(plots.sampled, study, name)
+        if failed:
+            self.add("<h3>Failed</h3>",
+                     table(failed, ["design", *study.names, "reason"]))
+        if done:
+            self.add("<h3>Responses</h3>")
+            self.picture(plots.trends, study, done)
+        self.models(name)
+        self.optima(name, rows)
+        self.add("<h3>All designs</h3>", table(rows))
+        self.gallery(name, done)
+
+    def models(self, name):
+        path = self.study.folder / f"fit.{name}"
+        if (path / "models.csv").exists():
+            self.add("<h3>Metamodels</h3>", table(readTable(
+                path / "models.csv")), "<p>Each design predicted by the model"
+                " without it; bars are two standard deviations.</p>",
+                image(path / "leaveOneOut.png"))
+
+    def optima(self, name, rows):
+        path = self.study.folder / f"optimise.{name}"
+        if not (path / "representatives.csv").exists():
+            return
+        chosen = readTable(path / "representatives.csv")
+        self.add("<h3>Optima</h3>", image(path / "front.png"), "<p>The same"
+                 " front in the space of the parameters.</p>",
+                 image(path / "shapes.png"), table(chosen))
+        numbers = {row["design"] for row in chosen}
+        self.gallery(name, [r for r in rows if r["design"] in numbers])
+
+    def gallery(self, name, rows):
+        for row in rows:
+            path = self.study.folder / row["picture"]
+            if row["picture"] and path.is_file():
+                self.add(f"<figure>{image(path)}<figcaption>{row['design']}: "
+                         + ", ".join(f"{n} {text(row[n])}" for n in [
+                             *self.study.names, *self.study.responses])
+                         + "</figcaption></figure>")
+
+    def comparison(self):
+        """Strategies on the designs that each of them has done."""
+        study = self.study
+        tables = {name: {r["design"]: r for r in results.rows(
+            study, name, baseline=False) if r["status"] == outcomes.DONE
+            and r["origin"] == designs.SAMPLED} for name in study.strategies}
+        tables = {name: rows for name, rows in tables.items() if rows}
+        common = sorted(set.intersection(*map(set, tables.values()))) if (
+            tables) else []
+        if len(tables) < 2 or not common:
+            return
+        tables = {name: [rows[d] for d in common]
+                  for name, rows in tables.items()}
+        self.add("<h2>Strategies compared</h2>",
+                 f"<p>On the {len(common)} designs that all have done: means,"
+                 " and the differences of responses from the first"
+                 " strategy.</p>", table(compare(study, tables)))
+        self.picture(plots.strategies, tables)
+
+    def write(self):
+        path = self.study.folder / "report.html"
+        title = html.escape(self.study.path.stem)
+        path.write_text(
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            f"<title>{title}</title><style>{STYLE}</style></head><body>\n"
+            + "\n".join(self.parts) + "\n</body></html>\n")
+        return path
+
+
+def compare(study, tables):
+    """One row per strategy: mean iterations, times, mesh figures, and how far
+    its responses are from the first strategy's."""
+    first = next(iter(tables.values()))
+    rows = []
+    for name, found in tables.items():
+        row = {"strategy": name}
+        numbers = [k for k in found[0]
+                   if k == "iterations" or k.startswith(("time", "mesh."))]
+        for key in numbers:
+            values = [r[key] for r in found if r.get(key) not in (None, "")]
+            if values:
+                row[key] = statistics.mean(values)
+        for response in study.responses:
+            off = [100*abs(a[response] - b[response])/abs(b[response])
+                   for a, b in zip(found, first) if b[response]]
+            if off:
+                row[f"{response}: mean difference %"] = statistics.mean(off)
+                row[f"{response}: largest %"] = max(off)
+        rows.append(row)
+    return rows
+
+
+def report(study):
+    page = Report(study)
+    page.problem()
+    page.comparison()
+    for name in study.strategies:
+        if results.rows(study, name, baseline=False):
+            page.strategy(name)
+    print(page.write())
