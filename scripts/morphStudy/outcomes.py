@@ -77,7 +77,7 @@ def changes(study, strategy, outcome):
 
 
 def responseTexts(study):
-    """What responses are read by, to see when that has changed."""
+    """What responses and notes are read by, to see when that has changed."""
     return {name: [str(v.text if k == "expression" and v else v)
                    for k, v in vars(r).items()]
-            for name, r in study.responses.items()}
+            for name, r in [*study.responses.items(), *study.notes.items()]}

@@ -1,5 +1,6 @@
 """Numbers from what a run leaves behind in a case folder."""
 
+import contextlib
 import math
 import re
 import subprocess
@@ -7,7 +8,9 @@ import subprocess
 import numpy as np
 
 from .caseFolder import isTime
-from .studyFile import Response
+
+# [s]
+COMMAND_TIMEOUT = 600
 
 
 class ResponseError(Exception):
@@ -73,11 +76,11 @@ def ofText(path, response):
         raise ResponseError(f"{path.name}: {error}") from None
 
 
-def ofCommand(command, case, environment, timeout):
+def ofCommand(command, case, environment):
     """The lines 'name value' that a command prints."""
     try:
         done = subprocess.run(
-            ["bash", "-c", command], cwd=case, text=True, timeout=timeout,
+            ["bash", "-c", command], cwd=case, text=True, timeout=COMMAND_TIMEOUT,
             env=environment, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except subprocess.TimeoutExpired:
@@ -97,40 +100,56 @@ def ofCommand(command, case, environment, timeout):
     return values
 
 
-def readOne(response: Response, case, known, baseline, printed):
-    if response.expression:
-        return float(response.expression(known, baseline))
-    if response.command:
-        values = printed(response.command)
-        if response.name not in values:
-            raise ResponseError(f"'{response.command}' prints no line"
-                                f" '{response.name} VALUE'")
-        return values[response.name]
-    path = newest(case, response.file)
-    return (ofText if response.regex else ofTable)(path, response)
+class Reader:
+    """Reads the responses and notes of one case."""
 
+    def __init__(self, study, case, parameters, environment):
+        self.study, self.case = study, case
+        self.environment = environment
+        self.known = dict(study.values(parameters))
+        self.printed = {}
 
-def read(study, case, parameters, environment):
-    """All responses of a case. Raises ResponseError, naming the response."""
-    outputs = {}
+    def responses(self):
+        """All of them. Raises ResponseError, naming the response."""
+        values = {}
+        for name, response in self.study.responses.items():
+            try:
+                value = self._readOne(response)
+            except ResponseError as error:
+                raise ResponseError(f"response {name}: {error}") from None
+            low, high = response.limits
+            if not math.isfinite(value):
+                raise ResponseError(f"response {name} is {value}")
+            if not low <= value <= high:
+                raise ResponseError(
+                    f"response {name} is {value:g}, outside its limits"
+                    f" [{low:g}, {high:g}]")
+            self.known[name] = values[name] = value
+        return values
 
-    def printed(command):
-        if command not in outputs:
-            outputs[command] = ofCommand(command, case, environment, 600)
-        return outputs[command]
+    def notes(self):
+        """Those that can be read."""
+        values = {}
+        for name, note in self.study.notes.items():
+            with contextlib.suppress(ResponseError, KeyError):
+                values[name] = self._readOne(note)
+        return values
 
-    known, values = dict(study.values(parameters)), {}
-    for name, response in study.responses.items():
-        try:
-            value = readOne(
-                response, case, known, study.baselineValues, printed)
-        except ResponseError as error:
-            raise ResponseError(f"response {name}: {error}") from None
-        low, high = response.limits
-        if not math.isfinite(value):
-            raise ResponseError(f"response {name} is {value}")
-        if not low <= value <= high:
-            raise ResponseError(f"response {name} is {value:g}, outside its"
-                                f" limits [{low:g}, {high:g}]")
-        known[name] = values[name] = value
-    return values
+    def _readOne(self, response):
+        if response.expression:
+            return float(response.expression(
+                self.known, self.study.baselineValues))
+        if response.command:
+            values = self._print(response.command)
+            if response.name not in values:
+                raise ResponseError(f"'{response.command}' prints no line"
+                                    f" '{response.name} VALUE'")
+            return values[response.name]
+        path = newest(self.case, response.file)
+        return (ofText if response.regex else ofTable)(path, response)
+
+    def _print(self, command):
+        if command not in self.printed:
+            self.printed[command] = ofCommand(
+                command, self.case, self.environment)
+        return self.printed[command]

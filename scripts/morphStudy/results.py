@@ -25,10 +25,11 @@ def row(study, outcome, origin):
         **outcome["parameters"], **outcome["derived"],
         **{name: outcome["responses"].get(name, "")
            for name in study.responses},
+        **{name: outcome["notes"].get(name, "") for name in study.notes},
         "iterations": outcome["iterations"],
         "time": round(sum(outcome["wall"].values()), 3),
         **{f"time.{k}": v for k, v in outcome["wall"].items()},
-        **quality, "startedFrom": outcome["startedFrom"],
+        **outcome["motion"], **quality, "startedFrom": outcome["startedFrom"],
         "attempts": outcome["attempts"], "picture": outcome["picture"],
         "reason": outcome["reason"]}
 

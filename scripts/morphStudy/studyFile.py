@@ -264,8 +264,9 @@ def readResponse(name, content, where, steps):
     if response.file and response.file.startswith("log."):
         if response.file[4:] not in steps:
             raise StudyError(
-                f"{where}/file: no step writes {response.file}. The steps that"
-                f" every strategy has: {' '.join(sorted(steps)) or 'none'}")
+                f"{where}/file: not every strategy has a step that writes"
+                f" {response.file}. Steps that they share:"
+                f" {' '.join(sorted(steps)) or 'none'}")
     return response
 
 
@@ -274,8 +275,8 @@ class Study:
 
     KEYS = ("template", "exclude", "folder", "parametersFile", "parameters",
             "derived", "constraints", "sampling", "cores", "baseline",
-            "strategies", "iterations", "responses", "failure", "picture",
-            "fit", "optimise")
+            "strategies", "iterations", "responses", "notes", "failure",
+            "picture", "fit", "optimise")
 
     def __init__(self, path, content=None):
         """content: the file whose words count, while paths are relative to
@@ -456,6 +457,16 @@ class Study:
                 response.expression.check(
                     [*self.baselineValues, *self.responses])
             self.responses[name] = response
+
+        steps = {step.name for s in self.strategies.values() for step in s.steps}
+        self.notes = {}
+        for name, content in (file.names("notes").items()
+                              if "notes" in file else ()):
+            self._newName(name, "notes")
+            note = readResponse(name, content, f"notes/{name}", steps)
+            if note.expression:
+                note.expression.check([*self.baselineValues, *self.responses])
+            self.notes[name] = note
 
     def _known(self, names, where):
         for name in names:

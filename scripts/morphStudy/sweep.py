@@ -89,8 +89,9 @@ def readAgain(study, outcome):
         return
     maker = worker.Worker(study, outcome["strategy"], outcome["number"] or 0)
     try:
-        outcome["responses"] = responses.read(
-            study, maker.case, maker.parameters, maker.environment())
+        reader = maker.reader()
+        outcome["responses"] = reader.responses()
+        outcome["notes"] = reader.notes()
         outcome.update(status=outcomes.DONE, reason="")
     except responses.ResponseError as error:
         outcome.update(status=outcomes.FAILED, reason=str(error), responses={})

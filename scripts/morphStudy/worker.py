@@ -8,6 +8,7 @@ with number 0 is the baseline. Exits with 0 once there is an outcome, be it a
 failure, and with 1 without one or where the baseline fails, as the designs
 cannot start without it."""
 
+import contextlib
 import datetime
 import fcntl
 import os
@@ -50,6 +51,10 @@ class Worker:
             "MORPHSTUDY_BASELINE": str(
                 outcomes.case(self.study, outcomes.BASELINE))}
 
+    def reader(self):
+        return responses.Reader(
+            self.study, self.case, self.parameters, self.environment())
+
     def work(self):
         """Make, run, read; again where it fails and retries are left."""
         for attempt in range(1, self.study.retries + 2):
@@ -60,16 +65,15 @@ class Worker:
                     d.name: float(self.study.values(self.parameters)[d.name])
                     for d in self.study.derived},
                 "attempts": attempt, "startedFrom": "template", "wall": {},
-                "responses": {}, "quality": {}, "iterations": None,
+                "responses": {}, "notes": {}, "quality": {}, "motion": {},
+                "iterations": None,
                 "picture": "", "responseTexts": outcomes.responseTexts(
                     self.study),
                 "made": outcomes.recipe(self.study, self.strategy.name)}
             try:
                 self.makeCase()
                 self.runSteps()
-                self.outcome["responses"] = responses.read(
-                    self.study, self.case, self.parameters,
-                    self.environment())
+                self.outcome["responses"] = self.reader().responses()
                 status, reason = outcomes.DONE, ""
             except (DesignFailed, StudyError, responses.ResponseError) as error:
                 status, reason = outcomes.FAILED, str(error)
@@ -128,21 +132,28 @@ class Worker:
                                    f" '{step.expect}'")
 
     def readWhatThereIs(self):
-        """Iterations and mesh quality, of a failed design as well."""
+        """Iterations, notes, the mesh: of a failed design as well."""
         step = self.study.iterationStep or self.strategy.steps[-1].name
         log = self.case / f"log.{step}"
         if log.exists():
             self.outcome["iterations"] = len(re.findall(
                 self.study.iterationRegex, log.read_text(errors="replace"),
                 re.MULTILINE))
-        try:
+        reader = self.reader()
+        reader.known.update(self.outcome["responses"])
+        self.outcome["notes"] = reader.notes()
+        with contextlib.suppress(responses.ResponseError):
             names, rows = responses.columns(responses.newest(
                 self.case, "postProcessing/**/morphMesh/*/quality.dat"))
-        except responses.ResponseError:
-            return
-        self.outcome["quality"] = {
-            name: float(word) for name, word in zip(names, rows[-1])
-            if re.match(r"[-+]?[.\d]", word)}
+            self.outcome["quality"] = {
+                name: float(word) for name, word in zip(names, rows[-1])
+                if re.match(r"[-+]?[.\d]", word)}
+        with contextlib.suppress(responses.ResponseError):
+            text = responses.newest(
+                self.case, "postProcessing/**/morphMesh/*/motion").read_text()
+            self.outcome["motion"] = {
+                name: float(value) for name, value in re.findall(
+                    r"^(attainable|moved)\s+(\S+);", text, re.MULTILINE)}
 
     def takePicture(self):
         if not self.study.picture:
