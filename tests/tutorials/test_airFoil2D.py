@@ -10,34 +10,18 @@ from pathlib import Path
 
 import pytest
 
-root = Path(__file__).resolve().parents[2]
+from tutorialCase import ROOT, run, tutorial
 
 
 @pytest.fixture(scope="module")
-def tutorial(tmp_path_factory):
-    """A copy beside what it refers to: scripts, bin, etc and the build"""
-    house = tmp_path_factory.mktemp("house")
-    for name in ("bin", "etc", "scripts", "build"):
-        (house / name).symlink_to(root / name)
-    copy = house / "tutorials/airFoil2D"
-    shutil.copytree(
-        root / "tutorials/airFoil2D", copy,
-        ignore=shutil.ignore_patterns(
-            "0", "[1-9]*", "runs", "results", "log.*", "polyMesh",
-            "postProcessing", "*.foam", "__pycache__"))
-    return copy
-
-
-def run(folder, *command):
-    done = subprocess.run(command, cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    assert done.returncode == 0, done.stdout[-3000:]
+def case(tmp_path_factory):
+    return tutorial("airFoil2D", tmp_path_factory.mktemp("airFoil2D"))
 
 
 @pytest.fixture(scope="module")
-def flow(tutorial):
-    run(tutorial, "./Allrun", "-noPictures")
-    with (tutorial / "results/restart.csv").open() as file:
+def flow(case):
+    run(case, "./Allrun", "-noPictures")
+    with (case / "results/restart.csv").open() as file:
         return {(row["pitch [deg]"], row["start"]): row
                 for row in csv.DictReader(file)}
 
@@ -68,10 +52,10 @@ def test_lift_hardly_depends_on_which_solver_moved_the_mesh(flow):
         -0.0717, abs=0.0105)
 
 
-def test_mesh_pitched_by_ten_degrees_keeps_its_quality(tutorial, flow):
-    sys.path.insert(0, str(root / "scripts"))
+def test_mesh_pitched_by_ten_degrees_keeps_its_quality(case, flow):
+    sys.path.insert(0, str(ROOT / "scripts"))
     from foamOutput import readColumns
-    path, = (tutorial / "runs/pitched10/postProcessing/morphMesh").glob(
+    path, = (case / "runs/pitched10/postProcessing/morphMesh").glob(
         "*/quality.dat")
     quality = readColumns(path)
     assert quality["wronglyOrientedFaces"][-1] == 0
@@ -83,23 +67,23 @@ def test_mesh_pitched_by_ten_degrees_keeps_its_quality(tutorial, flow):
 
 
 @pytest.fixture(scope="module")
-def angles(tutorial):
+def angles(case):
     """The script as a module, with a mesh in place"""
     path = subprocess.run(
         ["bash", "-c", ". etc/bashrc; echo \"$FOAM_TUTORIALS\"; env -0"],
-        cwd=root, stdout=subprocess.PIPE, check=True).stdout
+        cwd=ROOT, stdout=subprocess.PIPE, check=True).stdout
     tutorials, environment = path.split(b"\n", 1)
     for item in environment.decode().split("\0"):
         name, _, value = item.partition("=")
         if name:
             os.environ[name] = value
-    mesh = tutorial / "constant/polyMesh"
+    mesh = case / "constant/polyMesh"
     if not mesh.exists():
         shutil.copytree(
             Path(tutorials.decode()) /
             "incompressible/simpleFoam/airFoil2D/constant/polyMesh", mesh)
     spec = importlib.util.spec_from_file_location(
-        "angles", tutorial / "angles.py")
+        "angles", case / "angles.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
