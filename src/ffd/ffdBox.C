@@ -1,0 +1,467 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "ffdBox.H"
+#include "dictionaryChecks.H"
+#include "eigenFields.H"
+#include "foldCertificate.hpp"
+#include "ListOps.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+using morph::Vector3;
+
+// Points this near to a face, in fractions of the box, are on it
+static const scalar onFace = 1e-8;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ffdBox::ffdBox(const dictionary& dict)
+:
+    dict_(dict),
+    name_(dict.dictName()),
+    settings_(ffdBoxSettings::read(dict))
+{
+    readParameters();
+    control_.setZero(settings_.lattice->size(), 3);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ffdBox::readParameters()
+{
+    for (const entry& e : dict_.subDict("parameters"))
+    {
+        if (!e.isDict())
+        {
+            FatalIOErrorInFunction(dict_.subDict("parameters"))
+                << "Entry '" << e.keyword() << "' has to be a dictionary: "
+                << e.keyword() << " { value 0; moves ( ((i j k) (x y z)) ); }"
+                << nl << exit(FatalIOError);
+        }
+        parameters_.append(new ffdParameter(e.dict()));
+        moves_.append(readMoves(parameters_.last()));
+    }
+}
+
+
+morph::Vectors Foam::ffdBox::readMoves(const ffdParameter& parameter) const
+{
+    morph::Vectors moves =
+        morph::Vectors::Zero(settings_.lattice->size(), 3);
+
+    for (const auto& move : parameter.moves())
+    {
+        const labelVector& point = move.first();
+        const labelList numbers(settings_.numbers(point));
+        if (numbers.empty())
+        {
+            FatalIOErrorInFunction(parameter.dict())
+                << "Entry 'moves': there is no point " << point
+                << " in the lattice of box '" << name_ << "'" << nl
+                << "    Indices are from (0 0 0) to ("
+                << settings_.nPoints(0) - 1 << ' '
+                << settings_.nPoints(1) - 1 << ' '
+                << settings_.nPoints(2) - 1 << ')' << nl
+                << exit(FatalIOError);
+        }
+        const bool onAxis =
+            settings_.frame->radial() && point.x() == 0
+         && settings_.frame->frameCoordinates(Vector3::Zero())[0] <= 0;
+        if (onAxis)
+        {
+            FatalIOErrorInFunction(parameter.dict())
+                << "Entry 'moves': point " << point << " of box '" << name_
+                << "' is on the axis, where points are at rest" << nl
+                << "    Move points from (1 j k) on, or let the radius of"
+                << " 'start' be positive" << nl << exit(FatalIOError);
+        }
+
+        const Vector3 given = toEigen(move.second());
+        const Vector3 moved =
+            settings_.units == ffdBoxSettings::unitType::metres
+          ? settings_.frame->fromUnits(given)
+          : settings_.frame->fromFractions(settings_.rest(point), given);
+        for (const label i : numbers)
+        {
+            moves.row(i) += moved.transpose();
+        }
+    }
+    return moves;
+}
+
+
+bool Foam::ffdBox::contains(const Vector3& xi) const
+{
+    return
+        xi.minCoeff() >= -onFace && xi.maxCoeff() <= 1 + onFace
+     && !xi.hasNaN();
+}
+
+
+void Foam::ffdBox::markExit
+(
+    const point& a,
+    const point& b,
+    faceFlags& faces
+) const
+{
+    // Lines of space are curved in some boxes: from as near to the exit as
+    // round-off allows they are straight
+    const morph::FfdFrame& frame = *settings_.frame;
+    const Vector3 from = toEigen(a);
+    const Vector3 along = toEigen(b) - from;
+    scalar in = 0;
+    scalar out = 1;
+    while (out - in > 1e-9)
+    {
+        const scalar middle = 0.5*(in + out);
+        const bool isIn = contains(frame.coordinates(from + middle*along));
+        (isIn ? in : out) = middle;
+    }
+    const Vector3 exit = from + in*along;
+    const Vector3 xi = frame.coordinates(exit);
+    const Vector3 direction = frame.gradient(exit)*along;
+
+    scalar first = GREAT;
+    FixedList<scalar, 6> reached(GREAT);
+    for (label d = 0; d < 3; ++d)
+    {
+        if (mag(direction[d]) > onFace)
+        {
+            const label face = direction[d] > 0 ? d + 3 : d;
+            const scalar wall = direction[d] > 0 ? 1 : 0;
+            reached[face] = max((wall - xi[d])/direction[d], scalar(0));
+            first = min(first, reached[face]);
+        }
+    }
+    forAll(faces, face)
+    {
+        faces[face] = faces[face] || reached[face] < first + 1e-6;
+    }
+}
+
+
+bool Foam::ffdBox::frozen(const labelVector& point, const label face) const
+{
+    const direction d = face % 3;
+    const label layer =
+        face < 3 ? point[d] : settings_.order[d] - point[d];
+    return layer < settings_.frozenLayers;
+}
+
+
+Foam::wordList Foam::ffdBox::offenders
+(
+    const Vector3& xi,
+    const scalar scale
+) const
+{
+    // The derivative of the determinant by the value, times the value: what a
+    // parameter contributes to the fold
+    const morph::FfdFrame& frame = *settings_.frame;
+    Eigen::Matrix3d J = scale*settings_.lattice->gradient(xi, control_);
+    for (int d = 0; d < 3; ++d)
+    {
+        Vector3 from = xi, to = xi;
+        from[d] = 0;
+        to[d] = 1;
+        J.col(d) += frame.frameCoordinates(to) - frame.frameCoordinates(from);
+    }
+    Eigen::Matrix3d cofactors;
+    cofactors <<
+        J.col(1).cross(J.col(2)), J.col(2).cross(J.col(0)),
+        J.col(0).cross(J.col(1));
+
+    scalarField contributions(parameters_.size());
+    scalar worst = 0;
+    forAll(parameters_, i)
+    {
+        contributions[i] = parameters_[i].value()*cofactors.cwiseProduct
+        (
+            settings_.lattice->gradient(xi, moves_[i])
+        ).sum();
+        worst = min(worst, contributions[i]);
+    }
+
+    labelList order;
+    sortedOrder(contributions, order);
+    wordList names;
+    for (const label i : order)
+    {
+        if (parameters_[i].value() != 0 && contributions[i] <= 0.1*worst)
+        {
+            names.append(parameters_[i].name());
+        }
+    }
+    return names;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::string Foam::ffdBox::faceName(const label face)
+{
+    const char* names[] = {"s = 0", "t = 0", "p = 0", "s = 1", "t = 1", "p = 1"};
+    return names[face];
+}
+
+
+void Foam::ffdBox::update()
+{
+    control_.setZero();
+    forAll(parameters_, i)
+    {
+        if (parameters_[i].value() != 0)
+        {
+            control_ += parameters_[i].value()*moves_[i];
+        }
+    }
+}
+
+
+void Foam::ffdBox::checkFold() const
+{
+    morph::FoldCertificate certificate
+    (
+        *settings_.frame, *settings_.lattice, control_
+    );
+    if (certificate.valid())
+    {
+        return;
+    }
+    const Vector3 where = certificate.where();
+    const scalar safe = certificate.safeScale();
+    FatalIOErrorInFunction(dict_)
+        << "Box '" << name_ << "' folds: at (s t p) = " << toFoam(where)
+        << ", which is " << toFoam(settings_.frame->position(where)) << ","
+        << nl << "    the Jacobian determinant of its map is not positive."
+        << nl << "    Parameters that bring it about: "
+        << flatOutput(offenders(certificate.where(), safe)) << nl
+        << "    Largest safe scale: " << std::floor(1e4*safe)/1e4
+        << " times the values of all parameters of the box" << nl
+        << exit(FatalIOError);
+}
+
+
+Foam::pointField Foam::ffdBox::lattice(const bool moved) const
+{
+    const morph::FfdFrame& frame = *settings_.frame;
+    const labelVector& order = settings_.order;
+    pointField points((order.x() + 1)*(order.y() + 1)*(order.z() + 1));
+    label i = 0;
+    labelVector p;
+    for (p.z() = 0; p.z() <= order.z(); ++p.z())
+    {
+        for (p.y() = 0; p.y() <= order.y(); ++p.y())
+        {
+            for (p.x() = 0; p.x() <= order.x(); ++p.x())
+            {
+                const Vector3 rest = frame.position(settings_.rest(p));
+                labelVector own(p);
+                own.y() = p.y() % settings_.nPoints(1);
+                const label number = settings_.numbers(own)[0];
+                points[i++] = toFoam
+                (
+                    moved
+                  ? Vector3
+                    (
+                        rest + frame.displacement
+                        (
+                            rest, control_.row(number).transpose()
+                        )
+                    )
+                  : rest
+                );
+            }
+        }
+    }
+    return points;
+}
+
+
+void Foam::ffdBox::setPoints(const pointField& points)
+{
+    DynamicList<label> labels;
+    DynamicList<vector> coordinates;
+    forAll(points, i)
+    {
+        const Vector3 xi =
+            settings_.frame->coordinates(toEigen(points[i]));
+        if (contains(xi))
+        {
+            labels.append(i);
+            coordinates.append(toFoam(xi));
+        }
+    }
+    inside_.transfer(labels);
+    coordinates_ = asVectors(coordinates);
+    rows_ = settings_.lattice->rows(coordinates_);
+}
+
+
+Foam::ffdBox::faceFlags Foam::ffdBox::crossed
+(
+    const pointField& points,
+    const edgeList& edges
+) const
+{
+    boolList isIn(points.size(), false);
+    UIndirectList<bool>(isIn, inside_) = true;
+
+    faceFlags faces(false);
+    for (const edge& e : edges)
+    {
+        if (isIn[e.start()] != isIn[e.end()])
+        {
+            const label in = isIn[e.start()] ? e.start() : e.end();
+            markExit(points[in], points[e.otherVertex(in)], faces);
+        }
+    }
+    return faces;
+}
+
+
+Foam::wordList Foam::ffdBox::moving(const label face) const
+{
+    const direction d = face % 3;
+    const label layer = face < 3 ? 0 : settings_.order[d];
+    wordList names;
+    for (const ffdParameter& parameter : parameters_)
+    {
+        for (const auto& move : parameter.moves())
+        {
+            if (move.first()[d] == layer && !names.found(parameter.name()))
+            {
+                names.append(parameter.name());
+            }
+        }
+    }
+    return names;
+}
+
+
+void Foam::ffdBox::checkFrozen(const faceFlags& shared) const
+{
+    forAll(shared, face)
+    {
+        for (const ffdParameter& parameter : parameters_)
+        {
+            for (const auto& move : parameter.moves())
+            {
+                if (!shared[face] || !frozen(move.first(), face))
+                {
+                    continue;
+                }
+                FatalIOErrorInFunction(parameter.dict())
+                    << "Entry 'moves': point " << move.first() << " of box '"
+                    << name_ << "' is in a frozen layer: there is mesh beyond"
+                    << " the face " << faceName(face).c_str() << "," << nl
+                    << "    where 'continuity "
+                    << ffdBoxSettings::continuityNames[settings_.frozenLayers]
+                    << "' keeps " << settings_.frozenLayers
+                    << " layer(s) of control points at rest" << nl
+                    << "    Move points further inside, make the box larger"
+                    << " than the mesh there, or ask for less continuity" << nl
+                    << exit(FatalIOError);
+            }
+        }
+    }
+}
+
+
+Foam::vectorField Foam::ffdBox::displacement(const pointField& points) const
+{
+    const morph::Vectors d =
+        settings_.lattice->displacement(rows_, control_);
+    vectorField displacement(inside_.size());
+    forAll(inside_, i)
+    {
+        displacement[i] = toFoam
+        (
+            settings_.frame->displacement
+            (
+                toEigen(points[inside_[i]]), d.row(i).transpose()
+            )
+        );
+    }
+    return displacement;
+}
+
+
+Foam::vectorField Foam::ffdBox::derivative
+(
+    const pointField& points,
+    const label parameteri
+) const
+{
+    const morph::FfdLattice& lattice = *settings_.lattice;
+    const morph::Vectors d = lattice.displacement(rows_, control_);
+    const morph::Vectors byValue =
+        lattice.displacement(rows_, moves_[parameteri]);
+    vectorField derivative(inside_.size());
+    forAll(inside_, i)
+    {
+        const Eigen::Matrix3d byLattice =
+            settings_.frame->displacementByLattice
+            (
+                toEigen(points[inside_[i]]), d.row(i).transpose()
+            );
+        derivative[i] = toFoam(byLattice*byValue.row(i).transpose());
+    }
+    return derivative;
+}
+
+
+Foam::vectorField Foam::ffdBox::directional
+(
+    const pointField& points,
+    const vectorField& v
+) const
+{
+    const morph::FfdFrame& frame = *settings_.frame;
+    const morph::FfdLattice& lattice = *settings_.lattice;
+    const morph::Vectors d = lattice.displacement(rows_, control_);
+    vectorField result(inside_.size());
+    forAll(inside_, i)
+    {
+        const Vector3 x = toEigen(points[inside_[i]]);
+        const Vector3 di = d.row(i).transpose();
+        const Vector3 xi = coordinates_.row(i).transpose();
+        const Eigen::Matrix3d gradient =
+            frame.displacementByLattice(x, di)
+           *lattice.gradient(xi, control_)*frame.gradient(x)
+          + frame.displacementByPosition(x, di);
+        result[i] = toFoam(gradient*toEigen(v[inside_[i]]));
+    }
+    return result;
+}
+
+
+// ************************************************************************* //
