@@ -263,7 +263,10 @@ void Foam::ffdBox::checkFold() const
         << ", which is " << toFoam(settings_.frame->position(where)) << ","
         << nl << "    the Jacobian determinant of its map is not positive."
         << nl << "    Parameters that bring it about: "
-        << flatOutput(offenders(certificate.where(), safe)) << nl
+        << dictionaryChecks::listed
+           (
+               offenders(certificate.where(), safe)
+           ).c_str() << nl
         << "    Largest safe scale: " << std::floor(1e4*safe)/1e4
         << " times the values of all parameters of the box" << nl
         << exit(FatalIOError);
@@ -303,6 +306,30 @@ Foam::pointField Foam::ffdBox::lattice(const bool moved) const
         }
     }
     return points;
+}
+
+
+Foam::labelListList Foam::ffdBox::latticeLines() const
+{
+    const labelVector n(settings_.order + labelVector::one);
+    const labelVector step(1, n.x(), n.x()*n.y());
+    DynamicList<labelList> lines;
+    for (direction d = 0; d < 3; ++d)
+    {
+        for (label i = 0; i < cmptProduct(n); ++i)
+        {
+            if (n[d] > 1 && i/step[d] % n[d] == 0)
+            {
+                labelList line(n[d]);
+                forAll(line, j)
+                {
+                    line[j] = i + j*step[d];
+                }
+                lines.append(line);
+            }
+        }
+    }
+    return labelListList(std::move(lines));
 }
 
 

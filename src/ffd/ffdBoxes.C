@@ -55,6 +55,15 @@ Foam::ffdBoxes::ffdBoxes(const dictionary& dict)
 
 void Foam::ffdBoxes::readBoxes()
 {
+    if (!dict_.findDict("boxes"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "There is no dictionary 'boxes'" << nl
+            << "    List the boxes there, for example boxes { body { origin"
+            << " (0 0 0); span (1 1 1);" << nl
+            << "    order (2 2 2); parameters { mu { value 0.1; moves"
+            << " ( ((1 1 1) (1 0 0)) ); } } } }" << nl << exit(FatalIOError);
+    }
     const dictionary& boxes = dict_.subDict("boxes");
     for (const entry& e : boxes)
     {

@@ -88,6 +88,17 @@ void Foam::dictionaryChecks::stopIf
 }
 
 
+Foam::string Foam::dictionaryChecks::listed(const wordList& names)
+{
+    string text;
+    for (const word& name : names)
+    {
+        text += (text.empty() ? "" : " ") + name;
+    }
+    return '(' + text + ')';
+}
+
+
 Foam::labelList Foam::dictionaryChecks::select
 (
     const dictionary& dict,

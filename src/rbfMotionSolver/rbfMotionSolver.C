@@ -20,16 +20,13 @@ License
 #include "rbfMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
 #include "clockTime.H"
-#include "cyclicPolyPatch.H"
+#include "cyclicPoints.H"
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
-#include "localIOdictionary.H"
-#include "pointFields.H"
-#include "processorCyclicPolyPatch.H"
+#include "pointDisplacementField.H"
 #include "pstreamCommunicator.H"
 #include "StringStream.H"
-#include "syncTools.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -65,20 +62,6 @@ static const scalar correctionReach = 0.1;
 // Least factor by which a support radius that follows the motion grows
 static const scalar radiusGrowth = 1.5;
 
-
-static IOobject pointDisplacementIO(const polyMesh& mesh)
-{
-    return IOobject
-    (
-        "pointDisplacement",
-        mesh.time().timeName(),
-        mesh,
-        IOobject::NO_READ,
-        IOobject::AUTO_WRITE,
-        false
-    );
-}
-
 } // End namespace Foam
 
 
@@ -96,7 +79,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
         dict,
         pointVectorField
         (
-            pointDisplacementIO(mesh),
+            pointDisplacementField::io(mesh),
             pointMesh::New(mesh),
             dimensionedVector(dimLength, Zero)
         ),
@@ -113,7 +96,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
       : state_.supportRadius()
     )
 {
-    readPointDisplacement();
+    pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
 }
 
@@ -143,29 +126,6 @@ Foam::rbfMotionSolver::rbfMotionSolver
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::rbfMotionSolver::readPointDisplacement()
-{
-    foamCompat::registerObject(pointDisplacement_);
-
-    IOobject io(pointDisplacementIO(mesh()));
-    io.readOpt() = IOobject::MUST_READ;
-    if (!io.typeHeaderOk<pointVectorField>(true))
-    {
-        return;
-    }
-
-    // Into the field that is there: some conditions cannot be copied before
-    // they were evaluated, for example solidBodyMotionDisplacement
-    const localIOdictionary dict(io, pointVectorField::typeName);
-    auto& internal = pointDisplacement_.ref();
-    internal.readField(dict, "internalField");
-    pointDisplacement_.boundaryFieldRef().readField
-    (
-        internal, dict.subDict("boundaryField")
-    );
-}
-
 
 const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
@@ -420,7 +380,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
     {
         inPlane[evaluated_[i]] = toFoam(s.row(i).transpose());
     }
-    matchCyclics(inPlane);
+    cyclicPoints::match(mesh(), inPlane);
     controlPoints_->impose(inPlane);
 
     auto displacement = tmp<vectorField>::New(mesh().nPoints());
@@ -433,41 +393,6 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
         );
     }
     return displacement;
-}
-
-
-void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
-{
-    boolList isCyclic(mesh().nPoints(), false);
-    bool some = false;
-    for (const polyPatch& patch : mesh().boundaryMesh())
-    {
-        if (isA<cyclicPolyPatch>(patch) || isA<processorCyclicPolyPatch>(patch))
-        {
-            some = true;
-            UIndirectList<bool>(isCyclic, patch.meshPoints()) = true;
-        }
-    }
-    if (!returnReduce(some, orOp<bool>()))
-    {
-        return;
-    }
-    syncTools::syncPointList(mesh(), isCyclic, orEqOp<bool>(), false);
-
-    // Mean of both sides as half of smallest plus largest: ranks that share a
-    // point leave no trace in it
-    const vector none = vector::uniform(GREAT);
-    vectorField smallest(displacement);
-    vectorField largest(displacement);
-    syncTools::syncPointList(mesh(), smallest, minEqOp<vector>(), none);
-    syncTools::syncPointList(mesh(), largest, maxEqOp<vector>(), -none);
-    forAll(displacement, pointi)
-    {
-        if (isCyclic[pointi])
-        {
-            displacement[pointi] = 0.5*(smallest[pointi] + largest[pointi]);
-        }
-    }
 }
 
 

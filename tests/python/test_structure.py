@@ -16,8 +16,11 @@ MAY_INCLUDE = {
     "controlGeometry": [],
     "catalyst": ["controlGeometry", "foam"],
     "meshValidity": ["foam", "numerics"],
-    "motion": ["foam", "numerics"],
+    "ffd": ["foam", "numerics"],
+    "motion": ["ffd", "foam", "numerics"],
     "rbfMotionSolver": ["motion", "meshValidity", "controlGeometry", "foam",
+                        "numerics"],
+    "ffdMotionSolver": ["ffd", "meshValidity", "controlGeometry", "foam",
                         "numerics"],
 }
 

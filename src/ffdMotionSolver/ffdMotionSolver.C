@@ -1,0 +1,337 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "ffdMotionSolver.H"
+#include "addToRunTimeSelectionTable.H"
+#include "cyclicPoints.H"
+#include "dictionaryChecks.H"
+#include "foamCompat.H"
+#include "pointDisplacementField.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(ffdMotionSolver, 0);
+
+    addToRunTimeSelectionTable
+    (
+        motionSolver,
+        ffdMotionSolver,
+        dictionary
+    );
+
+    addToRunTimeSelectionTable
+    (
+        displacementMotionSolver,
+        ffdMotionSolver,
+        displacement
+    );
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ffdMotionSolver::ffdMotionSolver
+(
+    const polyMesh& mesh,
+    const IOdictionary& dict
+)
+:
+    displacementMotionSolver
+    (
+        mesh,
+        dict,
+        pointVectorField
+        (
+            pointDisplacementField::io(mesh),
+            pointMesh::New(mesh),
+            dimensionedVector(dimLength, Zero)
+        ),
+        pointIOField(points0IO(mesh)),
+        typeName
+    ),
+    boxes_(checkedCoeffDict()),
+    onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
+{
+    pointDisplacementField::registerAndRead(pointDisplacement_);
+    initialise();
+}
+
+
+Foam::ffdMotionSolver::ffdMotionSolver
+(
+    const polyMesh& mesh,
+    const IOdictionary& dict,
+    const pointVectorField& pointDisplacement,
+    const pointIOField& points0
+)
+:
+    displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
+    boxes_(checkedCoeffDict()),
+    onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
+{
+    foamCompat::registerObject(pointDisplacement_);
+    initialise();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
+{
+    // Without a dictionary of coefficients this is dynamicMeshDict itself,
+    // with keys of others
+    if (found(typeName + "Coeffs"))
+    {
+        wordList keys(ffdBoxes::keys());
+        keys.append("onInvalidMesh");
+        dictionaryChecks::onlyKeys(coeffDict(), keys);
+    }
+    return coeffDict();
+}
+
+
+void Foam::ffdMotionSolver::initialise()
+{
+    if (!moveAllCells())
+    {
+        FatalIOErrorInFunction(*this)
+            << "Entries 'cellZone' and 'cellSet' have no meaning for "
+            << typeName << nl
+            << "    Remove them; boxes say which part of the mesh moves" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::ffdMotionSolver::makeGeometry()
+{
+    plane_.reset(new planarReduction(mesh(), points0()));
+    symmetry_.reset(new symmetryPlanes(mesh(), points0()));
+
+    pointField positions(mesh().nPoints());
+    forAll(positions, pointi)
+    {
+        positions[pointi] = plane_->position
+        (
+            points0()[plane_->representative()[pointi]]
+        );
+    }
+    boxes_.setPoints(positions, mesh().edges());
+}
+
+
+void Foam::ffdMotionSolver::warnOfCutPatches() const
+{
+    const polyBoundaryMesh& patches = mesh().boundaryMesh();
+    const label nPatches = patches.nNonProcessor();
+    const label nBoxes = boxes_.boxes().size();
+
+    labelList isCut(nPatches*nBoxes*6, 0);
+    for (label patchi = 0; patchi < nPatches; ++patchi)
+    {
+        const polyPatch& patch = patches[patchi];
+        edgeList edges(patch.nEdges());
+        forAll(edges, i)
+        {
+            edges[i] = edge
+            (
+                patch.meshPoints()[patch.edges()[i].start()],
+                patch.meshPoints()[patch.edges()[i].end()]
+            );
+        }
+        const List<ffdBox::faceFlags> faces(boxes_.cut(edges));
+        forAll(faces, boxi)
+        {
+            forAll(faces[boxi], face)
+            {
+                isCut[face + 6*(boxi + nBoxes*patchi)] = faces[boxi][face];
+            }
+        }
+    }
+    foamCompat::allCombineList(isCut, maxEqOp<label>());
+
+    forAll(boxes_.boxes(), boxi)
+    {
+        for (label face = 0; face < 6; ++face)
+        {
+            wordList cut;
+            for (label patchi = 0; patchi < nPatches; ++patchi)
+            {
+                if (isCut[face + 6*(boxi + nBoxes*patchi)])
+                {
+                    cut.append(patches[patchi].name());
+                }
+            }
+            if (!cut.empty())
+            {
+                warnOfCut(boxes_.boxes()[boxi], face, cut);
+            }
+        }
+    }
+}
+
+
+void Foam::ffdMotionSolver::warnOfCut
+(
+    const ffdBox& box,
+    const label face,
+    const wordList& patches
+) const
+{
+    const wordList moving(box.moving(face));
+    WarningInFunction
+        << "The face " << ffdBox::faceName(face).c_str() << " of box '"
+        << box.name() << "' cuts through patches "
+        << dictionaryChecks::listed(patches).c_str()
+        << " and is not frozen: continuity is none." << nl
+        << "    "
+        << (
+               moving.empty()
+             ? string("No parameter moves its control points")
+             : "The surface tears where parameters "
+             + dictionaryChecks::listed(moving)
+             + " move its control points"
+           ).c_str()
+        << endl;
+}
+
+
+void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
+{
+    const scalar largest = gMax(mag(displacement));
+
+    const scalar normal = symmetry_->impose(displacement);
+    if (normal > 1e-6*largest)
+    {
+        WarningInFunction
+            << "Points of symmetry patches are moved off their plane, by up to "
+            << normal << " m. They keep it; cells beside them may suffer." << nl
+            << "    Let the lattice move along the plane there" << endl;
+    }
+
+    const scalar difference = cyclicPoints::match(mesh(), displacement);
+    if (difference > 1e-6*largest)
+    {
+        WarningInFunction
+            << "Coupled cyclic points are moved differently, by up to "
+            << difference << " m. They take the mean of both sides; cells"
+            << " beside them may suffer." << nl
+            << "    Let the lattice move both sides alike" << endl;
+    }
+}
+
+
+Foam::vectorField Foam::ffdMotionSolver::displacement()
+{
+    const vectorField inPlane(boxes_.displacement());
+
+    const scalar nowhere = 1e-10*mesh().bounds().mag();
+    vectorField displacement(mesh().nPoints());
+    forAll(displacement, pointi)
+    {
+        const label from = plane_->representative()[pointi];
+        const point& x = points0()[pointi];
+        vector d = plane_->reduce
+        (
+            plane_->position(points0()[from]), inPlane[from]
+        );
+        if (plane_->onAxis(x, nowhere))
+        {
+            d -= (d & plane_->radial())*plane_->radial();
+        }
+        displacement[pointi] = plane_->expand(x, d);
+    }
+    constrain(displacement);
+    return displacement;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::tmp<Foam::pointField> Foam::ffdMotionSolver::curPoints() const
+{
+    return points0() + pointDisplacement_.primitiveField();
+}
+
+
+void Foam::ffdMotionSolver::solve()
+{
+    const bool first = !plane_.valid();
+    if (first)
+    {
+        makeGeometry();
+    }
+    const bool changed = boxes_.update(mesh().time().timeOutputValue());
+    if (!first && !changed)
+    {
+        return;
+    }
+
+    vectorField d(displacement());
+    if (first)
+    {
+        warnOfCutPatches();
+    }
+    motionLimiter(mesh(), coeffDict(), onInvalidMesh_).apply
+    (
+        points0(),
+        d,
+        "Make the values of the parameters smaller, or spread them over more"
+        " control points"
+    );
+    pointDisplacement_.primitiveFieldRef() = d;
+}
+
+
+void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
+{
+    displacementMotionSolver::updateMesh(map);
+
+    plane_.clear();
+    symmetry_.clear();
+}
+
+
+Foam::List<Foam::controlShape> Foam::ffdMotionSolver::shapes() const
+{
+    List<controlShape> shapes(boxes_.boxes().size());
+    forAll(shapes, boxi)
+    {
+        const ffdBox& box = boxes_.boxes()[boxi];
+        controlShape& shape = shapes[boxi];
+        shape.name = box.name();
+
+        // The same on every rank: one shows it
+        vectorField displacement;
+        if (Pstream::master())
+        {
+            shape.points = box.lattice(true);
+            shape.lines = box.latticeLines();
+            displacement = shape.points - box.lattice(false);
+        }
+        shape.vectors.set("displacement", displacement);
+    }
+    return shapes;
+}
+
+
+// ************************************************************************* //
