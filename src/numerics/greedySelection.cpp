@@ -1,5 +1,6 @@
 #include "greedySelection.hpp"
 
+#include "imageSystem.hpp"
 #include "incrementalSystem.hpp"
 #include "memory.hpp"
 #include "polynomialNodes.hpp"
@@ -103,12 +104,14 @@ GreedySelection::GreedySelection
 (
     const Kernel& kernel,
     Polynomial polynomial,
-    const SelectionSettings& settings
+    const SelectionSettings& settings,
+    const ImageGroup& images
 )
 :
     kernel_(kernel),
     polynomial_(polynomial),
     settings_(settings),
+    images_(images),
     interpolant_(kernel)
 {
     if
@@ -142,6 +145,21 @@ GreedySelection::GreedySelection
         (
             "algorithms schur and standard know no polynomial and no selection "
             "of all points; algorithm incremental does"
+        );
+    }
+    if
+    (
+        !images.trivial()
+     && (
+            settings.algorithm != Algorithm::incremental
+         || polynomial != Polynomial::none
+        )
+    )
+    {
+        throw std::invalid_argument
+        (
+            "images of control points need algorithm incremental and no "
+            "polynomial"
         );
     }
 }
@@ -515,13 +533,20 @@ void GreedySelection::makeSystem
     {
         // Every rank has the whole factor
         const double n = communicator.sum({double(candidates.size())})[0];
+        const double rows = images_.trivial() ? n : 3*n;
         requireMemory
         (
-            8*n*n,
+            8*rows*rows,
             "the system of all " + std::to_string(Index(n))
           + " control points, by 'selection all',",
             communicator
         );
+    }
+
+    if (!images_.trivial())
+    {
+        system_.reset(new ImageSystem(kernel_, images_));
+        return;
     }
 
     std::vector<Listed> nodes;

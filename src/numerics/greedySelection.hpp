@@ -4,6 +4,7 @@
 #define morph_greedySelection_hpp
 
 #include "controlSystem.hpp"
+#include "imageGroup.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
 
@@ -110,12 +111,15 @@ public:
     // the point has got to, as on a curved surface (slidingCondition.hpp)
     using Renewal = std::function<void(const Vectors&, ControlPoints&)>;
 
+    // images: of the control points, which have to be restricted to what the
+    // group allows; for algorithm incremental without a polynomial alone.
     // Throws std::invalid_argument for settings that contradict each other
     GreedySelection
     (
         const Kernel& kernel,
         Polynomial polynomial,
-        const SelectionSettings& settings
+        const SelectionSettings& settings,
+        const ImageGroup& images = ImageGroup()
     );
 
     // Selects until every candidate, at whose position the interpolant should
@@ -239,6 +243,7 @@ private:
     Kernel kernel_;
     Polynomial polynomial_;
     SelectionSettings settings_;
+    ImageGroup images_;
 
     bool started_ = false;
     std::unique_ptr<PointCloud> cloud_;

@@ -1,18 +1,12 @@
 #include "incrementalSystem.hpp"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
+#include "pivotedChoice.hpp"
 
 namespace morph
 {
 
 namespace
 {
-
-// A pivot below this fraction of its scale is round-off
-constexpr double leastPivot = 1e-12;
-
 
 GramFactor factorOf
 (
@@ -51,52 +45,6 @@ Matrix rightHandSide
     return r;
 }
 
-
-// Columns of a symmetric matrix of which the lower triangle is there
-Matrix symmetricColumns(const Matrix& W, Index first, Index count)
-{
-    const Index n = W.rows();
-    Matrix v(n, count);
-    v.topRows(first) = W.block(first, 0, count, first).transpose();
-    v.bottomRows(n - first) = W.block(first, first, n - first, count);
-    for (Index j = 1; j < count; ++j)
-    {
-        for (Index i = 0; i < j; ++i)
-        {
-            v(first + i, j) = v(first + j, i);
-        }
-    }
-    return v;
-}
-
-
-// The usable point with the largest error above the least, or -1
-Index worstOf
-(
-    const Matrix& r,
-    const std::vector<Index>& first,
-    const std::vector<char>& usable,
-    double least
-)
-{
-    Index worst = -1;
-    double largest = least;
-    for (std::size_t i = 0; i < usable.size(); ++i)
-    {
-        if (usable[i])
-        {
-            const double error =
-                r.middleRows(first[i], first[i + 1] - first[i]).norm();
-            if (error > largest)
-            {
-                largest = error;
-                worst = i;
-            }
-        }
-    }
-    return worst;
-}
-
 } // namespace
 
 
@@ -126,57 +74,21 @@ ControlSystem::Choice IncrementalSystem::choose
         points_.push_back(entry.point);
     }
     residual_ = factor_.residual(points_);
-    const std::vector<Index>& first = residual_.offset;
-    const Index n = list.size();
-
-    Matrix r = rightHandSide(list, residual_);
-    Matrix V(first.back(), std::min(most, n)*(residual_.scalar ? 1 : 3));
-    Index columns = 0;
-    std::vector<char> usable(n, 1);
-    Choice choice;
-    while (Index(choice.taken.size()) < std::min(most, n))
+    std::vector<double> scale;
+    for (const ControlPoint& p : points_)
     {
-        // Round-off may differ from that of the sweep: without an exception for
-        // the first, there might be no progress and no end
-        const double bound =
-            !choice.taken.empty() ? std::max(least, outside)
-          : choice.singular.empty() ? -1
-          : least;
-        const Index p = worstOf(r, first, usable, bound);
-        if (p < 0)
-        {
-            break;
-        }
-        usable[p] = 0;
-
-        const Index k = first[p + 1] - first[p];
-        Matrix v = symmetricColumns(residual_.W, first[p], k);
-        v.noalias() -=
-            V.leftCols(columns)*V.block(first[p], 0, k, columns).transpose();
-        const Eigen::LLT<Matrix> pivot(v.middleRows(first[p], k));
-        const Matrix l = pivot.matrixL();
-        const double scale = factor_.pivotScale(points_[p].position);
-        if
-        (
-            pivot.info() != Eigen::Success
-         || !(l.diagonal().cwiseAbs2().minCoeff() > leastPivot*scale)
-        )
-        {
-            // Nor can it be later: pivots only shrink as points are added
-            choice.singular.push_back(p);
-            continue;
-        }
-
-        l.transpose().triangularView<Eigen::Upper>()
-            .solveInPlace<Eigen::OnTheRight>(v);
-        const Matrix c =
-            l.triangularView<Eigen::Lower>().solve(r.middleRows(first[p], k));
-        r.noalias() -= v*c;
-        V.middleCols(columns, k) = v;
-        columns += k;
-        choice.taken.push_back(p);
+        scale.push_back(factor_.pivotScale(p.position));
     }
-    return choice;
+    return pivotedChoice
+    (
+        residual_.W,
+        residual_.offset,
+        rightHandSide(list, residual_),
+        scale,
+        most,
+        least,
+        outside
+    );
 }
 
 
