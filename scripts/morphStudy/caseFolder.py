@@ -111,12 +111,18 @@ def writeParameters(study, case, parameters):
                 f" {target.file}: {firstError(done.stdout)}")
 
 
+def environment(case):
+    """OpenFOAM asks PWD where it is, and complains where that is not so."""
+    return {**os.environ, "PWD": str(case)}
+
+
 def foamDictionary(case, target, *options):
     """What foamDictionary says, with #include and macros left as they are."""
     try:
         return subprocess.run(
             ["foamDictionary", "-disableFunctionEntries", "-entry",
-             target.entry, *options, target.file], cwd=case, text=True,
+             target.entry, *options, target.file], cwd=case,
+            env=environment(case), text=True,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     except FileNotFoundError:
         raise StudyError(
@@ -140,6 +146,6 @@ def keywords(case, file, entry):
     options = ["-entry", entry] if entry else []
     done = subprocess.run(
         ["foamDictionary", "-disableFunctionEntries", *options, "-keywords",
-         file], cwd=case, text=True, stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL)
+         file], cwd=case, env=environment(case), text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     return " ".join(done.stdout.split()) if done.returncode == 0 else ""

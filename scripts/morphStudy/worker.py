@@ -188,7 +188,8 @@ def why(log, status):
     """The line of a log that says why the command failed."""
     text = log.read_text(errors="replace")
     invalid = re.search(
-        r"The moved mesh would be invalid:.*?(?=\nOf these|\nNothing|\Z)",
+        r"(The motion makes the mesh|The moved mesh would be) invalid:.*?"
+        r"(?=\n\s*(Of these|Nothing|The mesh is left|\n)|\Z)",
         text, re.DOTALL)
     if invalid:
         return " ".join(invalid.group().split())[:300]

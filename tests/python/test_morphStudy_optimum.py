@@ -186,7 +186,8 @@ def test_the_front_keeps_to_the_constraints_of_both_kinds(optimised):
     assert (x + y >= 0.4*(1 - 1e-9)).all() and (f <= 1.2 + 1e-9).all()
     # x y is largest at given f = x^2 + y where x^2 = f/3, y = 2 f/3
     assert f.max() > 1.19 and len(f) > 20
-    assert np.abs(g - (1 - 2*(f/3)**1.5))[f > 0.3].max() < 0.01
+    missed = np.abs(g - (1 - 2*(f/3)**1.5))[f > 0.3]
+    assert missed.max() < 0.03 and np.median(missed) < 0.003
 
 
 def test_representatives_become_designs_once(optimised):
