@@ -45,6 +45,7 @@ Foam::ffdBoxes::ffdBoxes(const dictionary& dict)
             dict, "combine", combinationNames, combination::chain
         )
     ),
+    eachHasSome_(true),
     prepared_(false)
 {
     readBoxes();
@@ -114,7 +115,7 @@ void Foam::ffdBoxes::prepare(const label boxi, const pointField& points)
     }
     foamCompat::allCombineList(found, plusEqOp<label>());
 
-    if (found[6] == 0)
+    if (eachHasSome_ && found[6] == 0)
     {
         const boundBox ofBox(box.lattice(false), false);
         const boundBox ofPoints(points, true);
@@ -207,11 +208,13 @@ bool Foam::ffdBoxes::update(const scalarField& values)
 void Foam::ffdBoxes::setPoints
 (
     const pointField& points,
-    const edgeList& edges
+    const edgeList& edges,
+    const bool eachHasSome
 )
 {
     points_ = points;
     edges_ = edges;
+    eachHasSome_ = eachHasSome;
     prepared_ = false;
 }
 

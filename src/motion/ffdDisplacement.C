@@ -1,0 +1,117 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "ffdDisplacement.H"
+#include "addToRunTimeSelectionTable.H"
+#include "dictionaryChecks.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(ffdDisplacement, 0);
+    addToRunTimeSelectionTable
+    (
+        prescribedDisplacement,
+        ffdDisplacement,
+        dictionary
+    );
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ffdDisplacement::ffdDisplacement
+(
+    const dictionary& dict,
+    const polyMesh& mesh,
+    const labelList& patches,
+    const label nListed
+)
+:
+    prescribedDisplacement(dict, mesh),
+    nListed_(nListed),
+    boxes_(dict)
+{
+    wordList keys(ffdBoxes::keys());
+    keys.append("type");
+    dictionaryChecks::onlyKeys(dict, keys);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::edgeList Foam::ffdDisplacement::edgesBetween
+(
+    const labelList& meshPoints
+) const
+{
+    labelList place(mesh().nPoints(), -1);
+    forAll(meshPoints, i)
+    {
+        if (meshPoints[i] >= 0)
+        {
+            place[meshPoints[i]] = i;
+        }
+    }
+    DynamicList<edge> edges;
+    for (const edge& e : mesh().edges())
+    {
+        if (place[e.start()] >= 0 && place[e.end()] >= 0)
+        {
+            edges.append(edge(place[e.start()], place[e.end()]));
+        }
+    }
+    return edgeList(std::move(edges));
+}
+
+
+void Foam::ffdDisplacement::setPoints(const points& p) const
+{
+    const bool same = p.positions == positions_;
+    if (returnReduce(same, andOp<bool>()))
+    {
+        return;
+    }
+    positions_ = p.positions;
+
+    // Some ask for a few listed points of the group: only all of them tell
+    // whether a box has none
+    const bool onMesh = !p.meshPoints.empty() && max(p.meshPoints) >= 0;
+    const bool whole =
+        returnReduce(onMesh, orOp<bool>())
+     || returnReduce(p.positions.size(), sumOp<label>()) >= nListed_;
+    boxes_.setPoints(p.positions, edgesBetween(p.meshPoints), whole);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::tmp<Foam::vectorField> Foam::ffdDisplacement::displacement
+(
+    const points& p
+) const
+{
+    boxes_.update(mesh().time().timeOutputValue());
+    setPoints(p);
+    return boxes_.displacement();
+}
+
+
+// ************************************************************************* //
