@@ -1,0 +1,75 @@
+// A selection and an evaluation in an intermediate mesh
+
+#include "subStep.hpp"
+#include "exactSurface.hpp"
+
+namespace morph
+{
+
+Vectors subStep
+(
+    const SubStepSettings& settings,
+    const ControlPoints& conditions,
+    const Vectors& reached,
+    const int steps,
+    const GreedySelection::Renewal& renewal,
+    const Vectors& positions,
+    Communicator& communicator,
+    SelectionResult& result
+)
+{
+    ControlPoints whole = conditions;
+    ControlPoints part = conditions;
+    const auto divide = [&]()
+    {
+        for (Index i = 0; i < Index(part.size()); ++i)
+        {
+            part[i].value =
+                whole[i].residual(reached.row(i).transpose())/steps;
+        }
+    };
+    for (Index i = 0; i < Index(part.size()); ++i)
+    {
+        part[i].position += reached.row(i).transpose();
+    }
+    divide();
+
+    GreedySelection selection
+    (
+        settings.kernel, settings.polynomial, settings.selection
+    );
+    if (renewal)
+    {
+        const auto renewPart = [&](const Vectors& s, ControlPoints& points)
+        {
+            renewal(reached + s, whole);
+            divide();
+            for (Index i = 0; i < Index(points.size()); ++i)
+            {
+                points[i].value = part[i].value;
+            }
+        };
+        ControlPoints candidates = part;
+        result = selection.select
+        (
+            candidates, communicator, GreedySelection::Renewal(renewPart)
+        );
+    }
+    else
+    {
+        result = selection.select(part, communicator);
+    }
+
+    Vectors s = selection.interpolant()(PointCloud(positions));
+    if (settings.correctionRadius > 0)
+    {
+        ExactSurface correction(settings.correctionRadius);
+        correction.add
+        (
+            part, selection.residuals(part), communicator, positions, s
+        );
+    }
+    return s;
+}
+
+} // namespace morph

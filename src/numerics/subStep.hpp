@@ -1,0 +1,55 @@
+// One of several steps that together make a motion, from where the former left
+// the points.
+
+#ifndef morph_subStep_hpp
+#define morph_subStep_hpp
+
+#include "communicator.hpp"
+#include "greedySelection.hpp"
+
+namespace morph
+{
+
+struct SubStepSettings
+{
+    Kernel kernel;
+    Polynomial polynomial;
+    SelectionSettings selection;
+
+    // Largest radius of the surface correction [m], 0 for none
+    // (exactSurface.hpp)
+    double correctionRadius;
+};
+
+
+// The displacement field of one step [m], at the given positions (m x 3).
+//
+// The control points have moved by what was reached (n x 3), and so have the
+// kernels about them: the field is one of the intermediate mesh. What each of
+// their conditions, which are those of the whole motion, still lacks is made
+// up in equal parts by this and the remaining steps:
+//
+//     C^T s = (g - C^T reached)/steps
+//
+// so that prescribed points go in a straight line, and the last step (1) meets
+// every condition. A renewal, if there is one, is told the displacements from
+// the beginning of the motion.
+//
+// positions: of the points, in the intermediate mesh
+// steps: this one and those that remain
+// Throws as GreedySelection does. Collective.
+Vectors subStep
+(
+    const SubStepSettings& settings,
+    const ControlPoints& conditions,
+    const Vectors& reached,
+    int steps,
+    const GreedySelection::Renewal& renewal,
+    const Vectors& positions,
+    Communicator& communicator,
+    SelectionResult& result
+);
+
+} // namespace morph
+
+#endif
