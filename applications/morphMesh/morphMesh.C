@@ -133,7 +133,7 @@ static void reportInvalid
             << " of the motion, where the first cell breaks at "
             << fraction.where() << endl;
         motionLimiter::report(fraction);
-        record.note(fraction, 0);
+        record.note(fraction, fraction.value(), 0, 1);
     }
     record.set("moved", 0);
     record.write();

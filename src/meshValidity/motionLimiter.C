@@ -132,19 +132,21 @@ Foam::motionLimiter::motionLimiter
 void Foam::motionLimiter::refuse
 (
     const validFraction& fraction,
+    const part& of,
     const string& remedy
 ) const
 {
+    const scalar attainable = of.from + (of.to - of.from)*fraction.value();
     motionRecord* record = motionRecord::of(mesh_);
     if (record)
     {
-        record->note(fraction, 0);
+        record->note(fraction, attainable, 0, of.nSteps);
         record->write();
     }
     Info<< failed << endl;
     FatalIOErrorInFunction(dict_)
         << "The motion makes the mesh invalid: " << fraction.whole() << nl
-        << "    It is valid up to the fraction " << fraction.value()
+        << "    It is valid up to the fraction " << attainable
         << " of it, where the first breaks at " << fraction.where() << nl
         << "    The mesh is left as it was. " << remedy.c_str() << ';' << nl
         << "    'onInvalidMesh limit' moves the mesh as far as it goes,"
@@ -174,34 +176,51 @@ Foam::scalar Foam::motionLimiter::apply
     const string& remedy
 ) const
 {
-    if (policy_ == policy::ignore)
+    if
+    (
+        policy_ == policy::ignore
+     || invalidMotion(mesh_, reference, reference + displacement).empty()
+    )
     {
         return 1;
     }
-    const validFraction fraction(mesh_, reference, displacement);
-    if (fraction.stoppedBy() == validFraction::criterion::none)
-    {
-        return 1;
-    }
+    const scalar moved =
+        limitPart(reference, displacement, {0, 1, 1}, remedy);
+    displacement *= moved;
+    return moved;
+}
 
+
+Foam::scalar Foam::motionLimiter::limitPart
+(
+    const pointField& reference,
+    const vectorField& displacement,
+    const part& of,
+    const string& remedy
+) const
+{
+    const validFraction fraction(mesh_, reference, displacement);
     report(fraction);
     if (policy_ == policy::error)
     {
-        refuse(fraction, remedy);
+        refuse(fraction, of, remedy);
     }
 
-    const scalar moved = fraction.withMargin();
+    const scalar attainable = of.from + (of.to - of.from)*fraction.value();
+    const scalar moved =
+        of.from > 0
+      ? (1 - validFraction::margin)*attainable
+      : of.to*fraction.withMargin();
     Info<< "onInvalidMesh limit: the motion is limited to the fraction "
-        << moved << " of it. It is valid up to " << fraction.value()
+        << moved << " of it. It is valid up to " << attainable
         << ", where the first cell breaks at " << fraction.where() << " ("
         << validFraction::criterionNames[fraction.stoppedBy()]
-        << "); the whole of it makes " << fraction.whole() << endl;
+        << "); beyond, it makes " << fraction.whole() << endl;
     motionRecord* record = motionRecord::of(mesh_);
     if (record)
     {
-        record->note(fraction, moved);
+        record->note(fraction, attainable, moved, of.nSteps);
     }
-    displacement *= moved;
     return moved;
 }
 

@@ -97,11 +97,14 @@ bool Foam::motionRecord::reports(const polyMesh& mesh)
 void Foam::motionRecord::note
 (
     const validFraction& fraction,
-    const scalar moved
+    const scalar attainable,
+    const scalar moved,
+    const label nSteps
 )
 {
-    set("attainable", fraction.value());
+    set("attainable", attainable);
     set("moved", moved);
+    set("subSteps", nSteps);
     set("stoppedBy", validFraction::criterionNames[fraction.stoppedBy()]);
     if (fraction.stoppedBy() != validFraction::criterion::none)
     {

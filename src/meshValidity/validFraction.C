@@ -34,14 +34,13 @@ Foam::validFraction::criterionNames
     { criterion::facesAndCells, "facesAndCells" }
 });
 
+const Foam::scalar Foam::validFraction::margin = 0.1;
+
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-
-// Share of the largest fraction that is kept as a margin
-static const scalar margin = 0.1;
 
 // The golden section: no mesh breaks at such a fraction by design, so that
 // round-off decides nowhere

@@ -447,6 +447,23 @@ bool Foam::rbfControlPoints::update()
 }
 
 
+void Foam::rbfControlPoints::imposePrescribed
+(
+    vectorField& displacement,
+    const scalar fraction
+) const
+{
+    forAll(controlled_, i)
+    {
+        if (!conditions_[i].slides())
+        {
+            displacement[controlled_[i]] =
+                fraction*toFoam(conditions_[i].value);
+        }
+    }
+}
+
+
 void Foam::rbfControlPoints::impose(vectorField& displacement) const
 {
     forAll(controlled_, i)

@@ -106,6 +106,26 @@ static label readCount(const dictionary& dict, const word& key)
 }
 
 
+//- A count, or zero for the word auto
+static label readCountOrAuto
+(
+    const dictionary& dict,
+    const word& key,
+    const label otherwise
+)
+{
+    if (!dict.found(key))
+    {
+        return otherwise;
+    }
+    const token given(dict.lookup(key));
+    return
+        given.isWord() && given.wordToken() == "auto"
+      ? 0
+      : readCount(dict, key);
+}
+
+
 static void readGreedy
 (
     const dictionary& dict,
@@ -140,14 +160,8 @@ static void readGreedy
         selection.restartFraction =
             dictionaryChecks::getPositive(dict, "restartFraction");
     }
-    if (dict.found("pointsPerSweep"))
-    {
-        const token given(dict.lookup("pointsPerSweep"));
-        if (!given.isWord() || given.wordToken() != "auto")
-        {
-            selection.pointsPerSweep = readCount(dict, "pointsPerSweep");
-        }
-    }
+    selection.pointsPerSweep =
+        readCountOrAuto(dict, "pointsPerSweep", selection.pointsPerSweep);
 }
 
 
@@ -236,6 +250,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     settings.featureAngle = degToRad(degrees);
 
     settings.onInvalidMesh = motionLimiter::readPolicy(dict);
+    settings.subSteps = readCountOrAuto(dict, "subSteps", 1);
     return settings;
 }
 

@@ -24,9 +24,12 @@ License
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
+#include "invalidMotion.H"
+#include "motionRecord.H"
 #include "pointDisplacementField.H"
 #include "pstreamCommunicator.H"
 #include "StringStream.H"
+#include "subSteppedMotion.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -61,6 +64,9 @@ static const scalar correctionReach = 0.1;
 
 // Least factor by which a support radius that follows the motion grows
 static const scalar radiusGrowth = 1.5;
+
+// Most steps that 'subSteps auto' takes
+static const label maxSubSteps = 32;
 
 } // End namespace Foam
 
@@ -139,7 +145,7 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
             {
                 "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
                 "controlPoints", "greedy", "selection", "surfaceCorrection",
-                "featureAngle", "onInvalidMesh"
+                "featureAngle", "onInvalidMesh", "subSteps"
             }
         );
     }
@@ -383,6 +389,15 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
     cyclicPoints::match(mesh(), inPlane);
     controlPoints_->impose(inPlane);
 
+    return expand(inPlane);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::expand
+(
+    const vectorField& inPlane
+) const
+{
     auto displacement = tmp<vectorField>::New(mesh().nPoints());
     forAll(inPlane, pointi)
     {
@@ -396,16 +411,134 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
 }
 
 
-void Foam::rbfMotionSolver::limit(vectorField& displacement) const
+Foam::string Foam::rbfMotionSolver::remedy() const
 {
     OStringStream remedy;
     remedy
         << "Make the motion smaller, the support radius (" << supportRadius_
-        << " m) larger, or let more patches slide";
-    motionLimiter(mesh(), coeffDict(), settings_.onInvalidMesh).apply
+        << " m) larger, let more patches slide," << nl
+        << "    or move in several steps ('subSteps auto')";
+    return remedy.str();
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inOneStep(const bool first)
+{
+    select(first);
+    const clockTime timer;
+    tmp<vectorField> displacement(propagate());
+    if (debug)
+    {
+        Info<< type() << ": propagation " << timer.elapsedTime() << " s"
+            << endl;
+    }
+    return displacement;
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
+(
+    const label n,
+    const bool last
+)
+{
+    const auto constrain = [&](vectorField& inPlane, const scalar fraction)
+    {
+        cyclicPoints::match(mesh(), inPlane);
+        controlPoints_->imposePrescribed(inPlane, fraction);
+        if (fraction >= 1)
+        {
+            controlPoints_->impose(inPlane);
+        }
+    };
+    const morph::SubStepSettings settings
+    {
+        morph::Kernel(settings_.kernel, supportRadius_),
+        settings_.polynomial,
+        settings_.selection,
+        settings_.surfaceCorrection ? correctionReach*supportRadius_ : 0
+    };
+    subSteppedMotion motion
     (
-        points0(), displacement, remedy.str()
+        mesh(), points0(), plane_(), controlPoints_(), evaluated_, settings,
+        morph::GreedySelection::Renewal(), constrain,
+        [&](const vectorField& inPlane) { return expand(inPlane); }
     );
+
+    const motionLimiter limiter(mesh(), coeffDict(), settings_.onInvalidMesh);
+    const bool check = !last || !limiter.ignores();
+    scalar made = 1;
+    try
+    {
+        if (!motion.run(n, check))
+        {
+            if (!last)
+            {
+                return tmp<vectorField>();
+            }
+            made = limiter.limitPart
+            (
+                points0() + motion.displacement(),
+                motion.increment()(),
+                {scalar(motion.nMade())/n, scalar(motion.nMade() + 1)/n, n},
+                remedy()
+            );
+            motion.run(n, check, made);
+        }
+    }
+    catch (const std::exception& wrong)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << wrong.what() << nl << exit(FatalIOError);
+    }
+
+    motionRecord* record = motionRecord::of(mesh());
+    if (record)
+    {
+        record->set("subSteps", n);
+    }
+    Info<< type() << ": moved in " << motion.nMade() << " sub-steps";
+    if (made < 1)
+    {
+        Info<< " of " << n << ", to the fraction " << made;
+    }
+    Info<< ", with " << motion.fewestSelected() << " to "
+        << motion.mostSelected() << " control points" << endl;
+    return motion.displacement();
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::moved(const bool first)
+{
+    if (settings_.subSteps > 1)
+    {
+        return inSubSteps(settings_.subSteps, true);
+    }
+
+    vectorField displacement(inOneStep(first));
+    if (settings_.subSteps == 1)
+    {
+        motionLimiter(mesh(), coeffDict(), settings_.onInvalidMesh).apply
+        (
+            points0(), displacement, remedy()
+        );
+    }
+    else if
+    (
+        !invalidMotion(mesh(), points0(), points0() + displacement).empty()
+    )
+    {
+        for (label n = 2; n < maxSubSteps; n *= 2)
+        {
+            tmp<vectorField> several(inSubSteps(n, false));
+            if (several.valid())
+            {
+                return several;
+            }
+        }
+        return inSubSteps(maxSubSteps, true);
+    }
+    return tmp<vectorField>::New(displacement);
 }
 
 
@@ -437,17 +570,7 @@ void Foam::rbfMotionSolver::solve()
 
     if (supportRadius_ > 0)
     {
-        select(first);
-        clockTime timer;
-        vectorField displacement(propagate());
-        const scalar propagation = timer.timeIncrement();
-        limit(displacement);
-        pointDisplacement_.primitiveFieldRef() = displacement;
-        if (debug)
-        {
-            Info<< type() << ": propagation " << propagation
-                << " s, mesh check " << timer.timeIncrement() << " s" << endl;
-        }
+        pointDisplacement_.primitiveFieldRef() = moved(first);
     }
     else
     {

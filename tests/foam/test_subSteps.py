@@ -1,0 +1,153 @@
+"""subSteps auto | n: a motion in several steps, each from where the former left
+the mesh.
+
+Sources of truth: where the dictionary says that points go, planes, checkMesh,
+one rank, an uninterrupted run.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from boxCase import write_control
+from rbfCase import groups, points_at, rbf_case, reference, ulps
+
+CELLS = (10, 3, 3)
+
+
+def middle(table):
+    """A sheet across the middle of a box that moves along it, by a table of
+    time and distance; ends are fixed, the four sides slide."""
+    sheet = " ".join(f"(0.5 {y!r} {z!r})" for y in np.arange(4)/3
+                     for z in np.arange(4)/3)
+    motion = " ".join(f"({t} ({d} 0 0))" for t, d in table)
+    return groups(
+        sheet=f"type moving; points ({sheet}); displacement {{ type uniform;"
+              f" value table ({motion}); }}",
+        ends="type fixed; patches (xMin xMax);",
+        sides="type sliding; patches (yMin yMax zMin zMax);")
+
+
+FAR = "supportRadius 1.2;" + middle([(0, 0), (1, 0.42)])
+TOO_FAR = "supportRadius 1.2;" + middle([(0, 0), (1, 0.55)])
+
+
+def in_sheet(points):
+    return np.abs(points[:, 0] - 0.5) < 1e-9
+
+
+def steps(output):
+    return [int(n) for n in re.findall(r"moved in (\d+) sub-steps", output)]
+
+
+def ends_where_it_should(case, points, distance):
+    x = reference(case)
+    sheet = in_sheet(x)
+    assert sheet.sum() == 16
+    np.testing.assert_allclose(points[sheet], x[sheet] + [distance, 0, 0],
+                               rtol=0, atol=ulps(x))
+    for axis, plane in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)):
+        on = np.abs(x[:, axis] - plane) < 1e-9
+        np.testing.assert_allclose(points[on, axis], plane, atol=1e-15)
+    ends = (x[:, 0] < 1e-9) | (x[:, 0] > 1 - 1e-9)
+    assert np.array_equal(points[ends], x[ends])
+
+
+def test_auto_takes_as_many_steps_as_a_valid_mesh_needs(tmp_path):
+    one = rbf_case(tmp_path/"one", coeffs=FAR, cells=CELLS)
+    assert "makes the mesh invalid" in one.run("moveDynamicMesh", status=1)
+
+    case = rbf_case(tmp_path/"auto", coeffs="subSteps auto;" + FAR,
+                    cells=CELLS)
+    n, = steps(case.run("moveDynamicMesh"))
+    assert n in (2, 4, 8, 16, 32)
+    ends_where_it_should(case, points_at(case, "1"), 0.42)
+    assert "Mesh OK" in case.run("checkMesh", "-latestTime")
+
+    # As many as that and no fewer
+    fixed = rbf_case(tmp_path/"fixed", coeffs=f"subSteps {n};" + FAR,
+                     cells=CELLS)
+    fixed.run("moveDynamicMesh")
+    assert np.array_equal(points_at(fixed, "1"), points_at(case, "1"))
+    fewer = rbf_case(tmp_path/"fewer", coeffs=f"subSteps {n//2};" + FAR,
+                     cells=CELLS)
+    assert "makes the mesh invalid" in fewer.run("moveDynamicMesh", status=1)
+
+
+def test_a_motion_that_one_step_can_make_is_made_in_one(tmp_path):
+    near = "supportRadius 1.2;" + middle([(0, 0), (1, 0.1)])
+    one = rbf_case(tmp_path/"one", coeffs=near, cells=CELLS)
+    auto = rbf_case(tmp_path/"auto", coeffs="subSteps auto;" + near,
+                    cells=CELLS)
+    one.run("moveDynamicMesh")
+    assert steps(auto.run("moveDynamicMesh")) == []
+    assert np.array_equal(points_at(one, "1"), points_at(auto, "1"))
+
+
+def test_sub_steps_are_the_same_on_any_number_of_ranks(tmp_path):
+    results = []
+    for ranks, split in ((1, None), (2, (2, 1, 1)), (3, (1, 3, 1)),
+                         (4, (2, 1, 2))):
+        case = rbf_case(tmp_path/str(ranks), coeffs="subSteps auto;" + FAR,
+                        cells=CELLS)
+        if split:
+            case.decompose(split)
+        case.run("moveDynamicMesh", ranks=ranks)
+        results.append(points_at(case, "1"))
+    for other in results[1:]:
+        assert np.array_equal(other, results[0])
+
+
+def test_a_motion_that_returns_brings_the_mesh_back(tmp_path):
+    there = "subSteps 4; supportRadius 1.2;" + middle(
+        [(0, 0), (1, 0.3), (2, 0)])
+    case = rbf_case(tmp_path, coeffs=there, cells=CELLS, control={"end": 2})
+    assert steps(case.run("moveDynamicMesh")) == [4, 4]
+    np.testing.assert_allclose(points_at(case, "2"), reference(case), rtol=0,
+                               atol=ulps(reference(case)))
+
+
+def test_a_restart_continues_the_uninterrupted_run(tmp_path):
+    coeffs = "subSteps auto; supportRadius 1.2;" + middle(
+        [(0, 0), (1, 0.35), (2, 0.42)])
+    whole = rbf_case(tmp_path/"whole", coeffs=coeffs, cells=CELLS,
+                     control={"end": 2})
+    whole.run("moveDynamicMesh")
+    parts = rbf_case(tmp_path/"parts", coeffs=coeffs, cells=CELLS,
+                     control={"end": 1})
+    parts.run("moveDynamicMesh")
+    write_control(parts, end=2, startFrom="latestTime")
+    parts.run("moveDynamicMesh")
+    assert np.array_equal(points_at(parts, "2"), points_at(whole, "2"))
+
+
+def record(case):
+    text = (case.path/"postProcessing/morphMesh/1/motion").read_text()
+    return {key: value for key, value in
+            re.findall(r"^(\w+)\s+(.*);$", text, re.MULTILINE)}
+
+
+def test_limited_sub_steps_go_further_than_one_limited_step(tmp_path):
+    # 0.55 is beyond the end of the box
+    attained = {}
+    for n in (1, 8):
+        case = rbf_case(tmp_path/str(n), cells=CELLS,
+                        coeffs=f"onInvalidMesh limit; subSteps {n};" + TOO_FAR)
+        case.run("morphMesh", "-time", 1)
+        attained[n] = float(record(case)["attainable"])
+        moved = float(record(case)["moved"])
+        assert moved == pytest.approx(0.9*attained[n], rel=1e-9)
+        ends_where_it_should(case, points_at(case, "1"), moved*0.55)
+        assert int(record(case)["subSteps"]) == n
+    # At most up to the end of the box
+    assert attained[1] < attained[8] < 0.5/0.55
+
+
+@pytest.mark.parametrize("value", ["0", "-2", "some", "1.5"])
+def test_a_wrong_number_of_steps_is_an_error_that_names_it(tmp_path, value):
+    case = rbf_case(tmp_path, coeffs=f"subSteps {value};" + FAR, cells=CELLS)
+    before = case.tree()
+    output = case.run("moveDynamicMesh", status=1)
+    assert "FOAM FATAL IO ERROR" in output and "subSteps" in output
+    assert case.tree() == before
