@@ -2,6 +2,7 @@
 the design's parameters in its dictionaries."""
 
 import fnmatch
+import hashlib
 import os
 import re
 import shutil
@@ -10,6 +11,8 @@ import subprocess
 from .errors import StudyError
 
 LEFT_BEHIND = ("processor*", "postProcessing", "log.*", "*.foam")
+# [bytes]
+HASHED = 10**6
 
 
 def isTime(name):
@@ -29,8 +32,9 @@ def latestTime(case):
     return max(times, key=float, default=None)
 
 
-def copyTemplate(study, target):
-    """All of the template but what runs leave behind and the study itself."""
+def leftOut(study):
+    """What of the template is not copied, as shutil.copytree asks for it: what
+    runs leave behind, what the study excludes, and the study itself."""
     def ignore(folder, names):
         left = set()
         for name in names:
@@ -45,7 +49,32 @@ def copyTemplate(study, target):
                 left.add(name)
         return left
 
-    shutil.copytree(study.template, target, symlinks=True, ignore=ignore)
+    return ignore
+
+
+def copyTemplate(study, target):
+    shutil.copytree(study.template, target, symlinks=True,
+                    ignore=leftOut(study))
+
+
+def templateHash(study):
+    """Of the files that are copied: of what is in them, or of large ones (meshes)
+    how large they are."""
+    ignore, digest = leftOut(study), hashlib.sha256()
+    for folder, folders, files in os.walk(study.template):
+        left = ignore(folder, [*folders, *files])
+        folders[:] = sorted(set(folders) - left)
+        for name in sorted(set(files) - left):
+            path = os.path.join(folder, name)
+            digest.update(os.path.relpath(path, study.template).encode())
+            if os.path.islink(path):
+                digest.update(os.readlink(path).encode())
+            elif os.path.getsize(path) > HASHED:
+                digest.update(str(os.path.getsize(path)).encode())
+            else:
+                with open(path, "rb") as file:
+                    digest.update(file.read())
+    return digest.hexdigest()
 
 
 def copyCase(source, target):

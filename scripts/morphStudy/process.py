@@ -3,6 +3,7 @@ is gone, nothing of it is left running."""
 
 import ctypes
 import os
+import resource
 import signal
 import subprocess
 import time
@@ -40,8 +41,8 @@ def guard(group):
 
 def run(command, folder, log, timeout=None, environment=None):
     """Run a bash command in a folder, its output in the log. Returns the exit
-    status, None after a timeout, and the wall time [s]."""
-    start = time.monotonic()
+    status, None after a timeout, and wall and processor time [s]."""
+    start, used = time.monotonic(), processorTime()
     with open(log, "w") as output:
         process = subprocess.Popen(
             ["bash", "-c", command], cwd=folder, stdout=output,
@@ -62,4 +63,10 @@ def run(command, folder, log, timeout=None, environment=None):
             os.write(pipe, b".")
             os.close(pipe)
             os.waitpid(pid, 0)
-    return status, time.monotonic() - start
+    return status, time.monotonic() - start, processorTime() - used
+
+
+def processorTime():
+    """Of all processes started from here that have ended [s]."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime

@@ -183,7 +183,7 @@ def compare(study, tables):
     for name, found in tables.items():
         row = {"strategy": name}
         numbers = [k for k in found[0]
-                   if k == "iterations" or k.startswith(("time", "mesh."))]
+                   if k == "iterations" or k.startswith(("time", "cpuTime", "mesh."))]
         for key in numbers:
             values = [r[key] for r in found if r.get(key) not in (None, "")]
             if values:

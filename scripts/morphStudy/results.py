@@ -28,7 +28,9 @@ def row(study, outcome, origin):
         **{name: outcome["notes"].get(name, "") for name in study.notes},
         "iterations": outcome["iterations"],
         "time": round(sum(outcome["wall"].values()), 3),
+        "cpuTime": round(sum(outcome["cpu"].values()), 3),
         **{f"time.{k}": v for k, v in outcome["wall"].items()},
+        **{f"cpuTime.{k}": v for k, v in outcome["cpu"].items()},
         **outcome["motion"], **quality, "startedFrom": outcome["startedFrom"],
         "attempts": outcome["attempts"], "picture": outcome["picture"],
         "reason": outcome["reason"]}

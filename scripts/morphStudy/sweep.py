@@ -15,7 +15,8 @@ import sys
 import time
 from pathlib import Path
 
-from . import check, designs, outcomes, process, responses, results, worker
+from . import (
+    caseFolder, check, designs, outcomes, process, responses, results, worker)
 from .errors import StudyError
 
 SCRIPTS = Path(__file__).resolve().parents[1]
@@ -65,23 +66,44 @@ def forget(study, strategy, chosen, redo):
 
 def keepUp(study, strategy, numbers):
     """Stop where finished designs were made in another way than the study file
-    says now; read responses again where only those have changed."""
-    for name, number in [(outcomes.BASELINE, None)] + [
-            (strategy, n) for n in numbers]:
-        outcome = outcomes.read(study, name, number)
-        if outcome is None or (name == outcomes.BASELINE
-                               and study.baselineSteps is None):
-            continue
+    says now, or from another baseline; read responses again where only those
+    have changed."""
+    baseline = outcomes.read(study, outcomes.BASELINE)
+    found = [outcomes.read(study, strategy, n) for n in numbers]
+    if study.strategies[strategy].start != "template":
+        found.append(baseline)
+    found = [outcome for outcome in found if outcome]
+    for outcome in found:
+        number, name = outcome["number"], outcome["strategy"]
+        what = f"design {number:04d} of {name}" if number else "the baseline"
         changed = outcomes.changes(study, name, outcome)
         if changed:
-            what = f"design {number:04d} of {name}" if number else (
-                "the baseline")
             raise StudyError(
                 f"{what} was made with another study file: "
                 + ", ".join(changed) + " differ. Use another folder, or remove"
                 f" {outcomes.path(study, name, number)} to have it made anew")
+        if number and outcome["baselineMade"] and (
+                not baseline or baseline["finished"] != outcome["baselineMade"]):
+            raise StudyError(
+                f"{what} was made from a baseline that is no more there. Remove"
+                f" {outcomes.path(study, name, number).parent} to have all"
+                " designs made anew")
         if outcome["responseTexts"] != outcomes.responseTexts(study):
             readAgain(study, outcome)
+    noteTemplate(study, found)
+
+
+def noteTemplate(study, found):
+    """A template may be run in and written to: changes are no error."""
+    now = caseFolder.templateHash(study)
+    older = [o for o in found if o["templateHash"] != now]
+    if older:
+        names = ", ".join(f"{o['number']:04d}" if o["number"] else "baseline"
+                          for o in older[:5])
+        print(f"Note: {study.template} has changed since {len(older)} of the"
+              f" finished designs were made ({names}"
+              + (", ..." if len(older) > 5 else "")
+              + "). They stay as they are; -redo makes them again", flush=True)
 
 
 def readAgain(study, outcome):

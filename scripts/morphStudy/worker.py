@@ -64,7 +64,9 @@ class Worker:
                 "derived": {
                     d.name: float(self.study.values(self.parameters)[d.name])
                     for d in self.study.derived},
-                "attempts": attempt, "startedFrom": "template", "wall": {},
+                "attempts": attempt, "startedFrom": "template",
+                "baselineMade": None, "wall": {}, "cpu": {},
+                "templateHash": caseFolder.templateHash(self.study),
                 "responses": {}, "notes": {}, "quality": {}, "motion": {},
                 "iterations": None,
                 "picture": "", "responseTexts": outcomes.responseTexts(
@@ -98,6 +100,8 @@ class Worker:
             caseFolder.copyCase(
                 outcomes.case(self.study, outcomes.BASELINE), self.case)
             self.outcome["startedFrom"] = outcomes.BASELINE
+            self.outcome["baselineMade"] = outcomes.read(
+                self.study, outcomes.BASELINE)["finished"]
             if self.strategy.start == "nearest":
                 self.takeNearestFields()
         caseFolder.writeParameters(self.study, self.case, self.parameters)
@@ -116,9 +120,10 @@ class Worker:
     def runSteps(self):
         for step in self.strategy.steps:
             log = self.case / f"log.{step.name}"
-            status, wall = process.run(
+            status, wall, cpu = process.run(
                 step.run, self.case, log, step.timeout, self.environment())
             self.outcome["wall"][step.name] = round(wall, 3)
+            self.outcome["cpu"][step.name] = round(cpu, 3)
             if status is None:
                 raise DesignFailed(
                     f"{step.name}: timeout after {step.timeout:g} s")
@@ -158,7 +163,7 @@ class Worker:
     def takePicture(self):
         if not self.study.picture:
             return
-        status, wall = process.run(
+        process.run(
             self.study.picture, self.case, self.case / "log.picture", 600,
             self.environment())
         file = self.case / "picture.png"

@@ -160,6 +160,7 @@ def optimised(tmp_path_factory):
                 "responses": {"f": x*x + y, "g": 1 - x*y},
                 "notes": {}, "quality": {}, "motion": {}, "picture": "",
                 "iterations": 10*slower, "wall": {"solve": slower},
+                "cpu": {"solve": slower},
                 "attempts": 1, "startedFrom": "baseline",
                 "made": outcomes.recipe(study, strategy),
                 "responseTexts": outcomes.responseTexts(study)})

@@ -45,7 +45,7 @@ def table(study, strategy):
     """The results without what differs from run to run."""
     with (study.folder/f"results.{strategy}.csv").open() as file:
         return {row["design"]: {k: v for k, v in row.items()
-                                if not k.startswith("time")}
+                                if not k.startswith(("time", "cpuTime"))}
                 for row in csv.DictReader(file)}
 
 
@@ -256,6 +256,28 @@ def test_changed_responses_are_read_again_without_a_run(tmp_path):
     assert runs(study, "0001") == 1
 
 
+def test_designs_of_another_baseline_are_not_mixed(tmp_path):
+    study = started(tmp_path)
+    work(study, "baseline", 0)
+    work(study, "morph", 1)
+    sweep.keepUp(study, "morph", [1])
+    outcomes.path(study, "baseline").unlink()
+    with pytest.raises(StudyError, match="0001.*baseline that is no more"):
+        sweep.keepUp(study, "morph", [1])
+
+
+def test_a_change_of_the_template_is_said(tmp_path, capsys):
+    study = started(tmp_path)
+    work(study, "remesh", 1)
+    sweep.keepUp(study, "remesh", [1])
+    assert capsys.readouterr().out == ""
+    with (study.template/"solver.sh").open("a") as file:
+        file.write("true\n")
+    sweep.keepUp(study, "remesh", [1])
+    assert "has changed since 1 of the finished designs" in (
+        capsys.readouterr().out)
+
+
 def test_failed_designs_are_redone_on_request(tmp_path):
     study = started(tmp_path)
     work(study, "remesh", 1, 2)
@@ -323,8 +345,26 @@ def test_notes_are_blank_where_they_cannot_be_read(tmp_path):
     assert outcome["status"] == "done" and outcome["notes"] == {"last": 3}
 
 
+def test_a_picture_is_kept_and_its_failure_is_noted(tmp_path):
+    study = started(tmp_path, (
+        "optimise:", "picture: echo made > picture.png\noptimise:"))
+    assert work(study, "remesh", 1)["picture"] == "remesh/0001/picture.png"
+    study = read(makeStudy(tmp_path, ("optimise:", "picture: exit 1\noptimise:")))
+    outcome = work(study, "remesh", 3)
+    assert outcome["status"] == "done"
+    assert outcome["picture"] == "none: see 0003/log.picture"
+
+
+def test_times_of_steps_are_wall_and_processor_time(tmp_path):
+    _, wall, cpu = process.run("sleep 0.3", tmp_path, tmp_path/"log")
+    assert 0.3 <= wall and cpu < 0.2
+    _, wall, cpu = process.run(
+        "for ((i = 0; i < 100000; ++i)); do :; done", tmp_path, tmp_path/"log")
+    assert 0.05 < cpu < wall + 0.05
+
+
 def test_a_timeout_ends_all_that_a_command_started(tmp_path):
-    status, wall = process.run(
+    status, wall, _ = process.run(
         "sleep 51.7 & bash -c 'sleep 52.7; true'", tmp_path, tmp_path/"log", 0.5)
     assert status is None and 0.5 <= wall < 10
     waitUntil(lambda: not processes(tmp_path), "something still runs")
