@@ -51,11 +51,13 @@ def picture(
     range=None,
     lines=True,
     width=1200,
+    component=None,
 ):
     """Writes one picture: the mesh's lines and, if named, a field's colours.
 
     box     (xMin, xMax, yMin, yMax) [m]: what the picture shows
     range   (low, high) of the colours; default: the field's own in the box
+    component  of a vector: "X", "Y" or "Z"; default: its magnitude
     """
     view = pv.CreateView("RenderView")
     mesh = openCase(case, time)
@@ -79,7 +81,7 @@ def picture(
         display.AmbientColor = display.DiffuseColor = [0.93, 0.95, 0.98]
     else:
         colour(display, view, mesh, field, range or visibleRange(
-            mesh, field, box))
+            mesh, field, box), component)
 
     view.CameraParallelProjection = 1
     centre = [(xMin + xMax) / 2, (yMin + yMax) / 2]
@@ -109,8 +111,8 @@ def visibleRange(mesh, field, box):
     return limits
 
 
-def colour(display, view, mesh, field, limits):
-    pv.ColorBy(display, ("POINTS", field))
+def colour(display, view, mesh, field, limits, component=None):
+    pv.ColorBy(display, ("POINTS", field) + ((component,) if component else ()))
     table = pv.GetColorTransferFunction(field)
     table.ApplyPreset("Cool to Warm (Extended)", True)
     table.RescaleTransferFunction(*limits)

@@ -1,0 +1,61 @@
+"""Tutorials that move the mesh in each time step, in short form and in
+temporary copies.
+
+Source of truth: the same case with a mesh that moves as a whole, for which no
+motion solver has to find where the points go.
+"""
+
+import csv
+import re
+
+import pytest
+
+from tutorialCase import run, tutorial
+
+
+def rows(path, key="run"):
+    with path.open() as file:
+        return {row[key]: row for row in csv.DictReader(file)}
+
+
+def selections(log):
+    return re.findall(r"^rbfMotionSolver: selected (\d+) of (\d+)",
+                      log.read_text(), re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def cylinder(tmp_path_factory):
+    case = tutorial("oscillatingCylinder", tmp_path_factory.mktemp("cylinder"))
+    run(case, "./Allrun", "-short")
+    return case
+
+
+def test_forces_on_the_cylinder_are_those_on_a_rigid_mesh(cylinder):
+    forces = rows(cylinder/"results/forces.csv")
+    ours, rigid = forces["oscillating"], forces["rigid"]
+    assert float(ours["mean Cd"]) == pytest.approx(
+        float(rigid["mean Cd"]), rel=3e-3)
+    assert float(ours["Cl at the period"]) == pytest.approx(
+        float(rigid["Cl at the period"]), rel=2e-2)
+    assert float(ours["phase [deg]"]) == pytest.approx(
+        float(rigid["phase [deg]"]), abs=1.5)
+
+
+def test_the_wake_of_the_cylinder_locks_in(cylinder):
+    forces = rows(cylinder/"results/forces.csv")
+    assert float(forces["oscillating"]["lift frequency"]) == pytest.approx(
+        1/6, rel=1e-2)
+
+
+def test_a_cylinder_that_oscillates_is_selected_once(cylinder):
+    assert len(selections(cylinder/"runs/oscillating/log.pimpleFoam")) == 1
+
+
+def test_lift_of_the_pitching_aerofoil_is_that_on_a_rigid_mesh(
+        tmp_path_factory):
+    case = tutorial("pitchingAerofoil", tmp_path_factory.mktemp("aerofoil"))
+    run(case, "./Allrun", "-noPictures", "-endTime", "1")
+    forces = rows(case/"results/forces.csv")
+    assert float(
+        forces["morphed"]["rms difference of Cl, of its largest"]) < 0.01
+    assert len(selections(case/"runs/morphed/log.pimpleFoam")) == 1

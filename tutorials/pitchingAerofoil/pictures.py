@@ -1,0 +1,23 @@
+"""The tutorial's film strip, results/pitching.png: velocity and mesh of a
+period, and the mesh at the tail."""
+
+import sys
+from pathlib import Path
+
+here = Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parents[1] / "scripts"))
+from filmStrip import filmStrip  # noqa: E402
+from picture import picture  # noqa: E402
+
+case = here / "runs/morphed"
+output = here / "results"
+frames = []
+for part, box, field in (
+    ("flow", (-45, 45, -32, 32), dict(field="U", range=(0, 60), lines=False)),
+    ("mesh", (-45, 45, -32, 32), dict()),
+    ("nose", (-20, -8, -4.1, 4.4333), dict()),
+):
+    for time in (4, 6, 8, 10):
+        frames.append(output / f"{part}.{time}.png")
+        picture(case, frames[-1], time=time, box=box, width=700, **field)
+filmStrip(frames, output / "pitching.png", columns=4)
