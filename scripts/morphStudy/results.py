@@ -65,6 +65,16 @@ def conclude(study, strategy, chosen):
                   f" {outcomes.case(study, outcomes.BASELINE)}; corrected, the"
                   " same command goes on")
         else:
-            print(f"Error: see {study.folder/'snakemake.log'}; the same command"
+            print(f"Error: {lastError(study.folder/'snakemake.log')}\n    See"
+                  f" {study.folder/'snakemake.log'}; corrected, the same command"
                   " goes on")
     return 1 if missing else 0
+
+
+def lastError(log):
+    """What the workflow engine, or a worker, last complained of."""
+    lines = [line.strip() for line in log.read_text().splitlines()
+             if "Error" in line] if log.exists() else []
+    own = [line for line in lines if not line.startswith("Error in rule")]
+    found = (own or lines or ["the workflow engine was ended"])[-1]
+    return found.removeprefix("Error: ")

@@ -169,8 +169,8 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
         (workflow / "plan.json").write_text(json.dumps(
             {"cores": study.cores, "jobs": jobs}, indent=1))
         if jobs:
-            progress = Progress(study, strategy, chosen,
-                                max(1, cores//study.cores))
+            progress = Progress(study, strategy, chosen, None if profile
+                                else max(1, cores//study.cores))
             engine(study, workflow, cores, profile, progress)
         return results.conclude(study, strategy, chosen)
 
@@ -204,7 +204,7 @@ class Progress:
 
     def __init__(self, study, strategy, chosen, atOnce):
         self.study, self.strategy, self.atOnce = study, strategy, atOnce
-        self.waiting = []
+        self.waiting, self.start, self.before = [], time.monotonic(), 0
         self.total, self.times, self.finished = len(chosen), [], 0
         for design in chosen:
             outcome = outcomes.read(study, strategy, design.number)
@@ -217,8 +217,9 @@ class Progress:
             not outcomes.isDone(outcomes.read(study, outcomes.BASELINE)))
         if self.baseline:
             outcomes.path(study, outcomes.BASELINE).unlink(missing_ok=True)
+        self.before = self.finished
         print(f"{strategy}: {self.finished} of {self.total} designs are"
-              f" finished, {atOnce} at once", flush=True)
+              " finished" + (f", {atOnce} at once" if atOnce else ""), flush=True)
 
     def update(self):
         if self.baseline:
@@ -238,8 +239,13 @@ class Progress:
     def left(self):
         if not self.waiting:
             return ""
-        return "; some " + duration(
-            timeLeft(self.times, len(self.waiting), self.atOnce)) + " left"
+        if self.atOnce:
+            seconds = timeLeft(self.times, len(self.waiting), self.atOnce)
+        else:
+            # A cluster runs as many at once as it likes
+            seconds = (time.monotonic() - self.start)*len(self.waiting)/(
+                self.finished - self.before)
+        return f"; some {duration(seconds)} left"
 
 
 def timeLeft(times, count, atOnce):

@@ -152,6 +152,18 @@ def test_two_sweeps_at_once_are_refused(undisturbed):
             sweep.run(undisturbed[0])
 
 
+def test_a_profile_is_passed_on(tmp_path, capsys):
+    study = started(tmp_path)
+    assert sweep.run(study, "remesh", profile=str(tmp_path/"slurm")) == 1
+    assert "Error: profile given but no config.yaml found" in (
+        capsys.readouterr().out)
+    (tmp_path/"slurm").mkdir()
+    (tmp_path/"slurm/config.yaml").write_text("cores: 1\n")
+    assert sweep.run(study, "remesh", profile=str(tmp_path/"slurm"),
+                     only=[1, 3]) == 0
+    assert " left" in capsys.readouterr().out
+
+
 def test_a_failing_baseline_stops_the_sweep(tmp_path, capsys):
     study = started(tmp_path, ("x: {bounds: [0, 1], baseline: 0.5}",
                                "x: {bounds: [0, 1], baseline: 0.95}"))
