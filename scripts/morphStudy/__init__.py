@@ -8,12 +8,15 @@ study file. One module per concern:
     sampling      factorial, Latin hypercube, Sobol, under constraints
     designs       the table of designs, which only grows
     caseFolder    a design's case, from the template or the baseline
+    foamEntry     a number in a dictionary file
     process       a command with a log, a timeout, and an end
     responses     numbers from what a run leaves behind
+    outcomes      what became of a design, written last and at once
     worker        one design from folder to outcome
     sweep         all of them, by Snakemake
     results       outcomes as one table
     metamodel     kriging and its leave-one-out error
     pareto        NSGA-II and the clusters of its front
+    plots         pictures of all this
     check, sample, status, fit, optimise, report    the verbs
 """

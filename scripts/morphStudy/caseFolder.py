@@ -6,8 +6,8 @@ import hashlib
 import os
 import re
 import shutil
-import subprocess
 
+from . import foamEntry
 from .errors import StudyError
 
 LEFT_BEHIND = ("processor*", "postProcessing", "log.*", "*.foam")
@@ -132,32 +132,12 @@ def writeParameters(study, case, parameters):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(parametersText(study, values))
     for name, target in study.targets():
-        done = foamDictionary(
-            case, target, "-set", repr(float(values[name])))
-        if done.returncode:
-            raise StudyError(
-                f"{name}: foamDictionary cannot set {target.entry} in"
-                f" {target.file}: {firstError(done.stdout)}")
-
-
-def environment(case):
-    """OpenFOAM asks PWD where it is, and complains where that is not so."""
-    return {**os.environ, "PWD": str(case)}
-
-
-def foamDictionary(case, target, *options):
-    """What foamDictionary says, with #include and macros left as they are."""
-    try:
-        return subprocess.run(
-            ["foamDictionary", "-disableFunctionEntries", "-entry",
-             target.entry, *options, target.file], cwd=case,
-            env=environment(case), text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    except FileNotFoundError:
-        raise StudyError(
-            "parameters that are entries of dictionaries need foamDictionary,"
-            " which is not on the path. Source OpenFOAM and morphFoam's"
-            " etc/bashrc first") from None
+        path = case / target.file
+        try:
+            path.write_text(foamEntry.replaced(
+                path.read_text(), target.entry, values[name]))
+        except (OSError, foamEntry.EntryError) as error:
+            raise StudyError(f"{name}, {target.file}: {error}") from None
 
 
 def firstError(text):
@@ -168,13 +148,3 @@ def firstError(text):
     lines = [line.strip() for line in
              (found.group(1) if found else text).splitlines() if line.strip()]
     return " ".join(lines[:3] if found else lines[-1:])
-
-
-def keywords(case, file, entry):
-    """The keywords of a dictionary of a file, or of the file."""
-    options = ["-entry", entry] if entry else []
-    done = subprocess.run(
-        ["foamDictionary", "-disableFunctionEntries", *options, "-keywords",
-         file], cwd=case, env=environment(case), text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    return " ".join(done.stdout.split()) if done.returncode == 0 else ""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import caseFolder, sampling
+from . import foamEntry, sampling
 from .errors import StudyError
 
 # Larger files of a template are meshes and fields
@@ -113,16 +113,12 @@ def checkEntry(study, name, target):
     if not path.is_file():
         raise StudyError(f"{name}/file: {target.file} is no file of"
                          f" {study.template}")
-    done = caseFolder.foamDictionary(study.template, target, "-value")
-    if done.returncode == 0:
-        return
-    parent = target.entry.replace(".", "/").rpartition("/")[0]
-    siblings = caseFolder.keywords(study.template, target.file, parent)
-    raise StudyError(
-        f"{name}/entry: {target.file} has no entry {target.entry}."
-        + (f" In {parent or 'the file'} there are: {siblings}" if siblings
-           else f" There is no {parent} either")
-        + ". An entry that comes by #include is set in the included file")
+    try:
+        foamEntry.number(path.read_text(), target.entry)
+    except (UnicodeDecodeError, foamEntry.EntryError) as error:
+        raise StudyError(
+            f"{name}/entry: {target.file}: {error}. What comes by #include is"
+            " set in the included file") from None
 
 
 def commands(study):

@@ -171,6 +171,18 @@ def test_morphed_designs_go_on_from_the_baselines_time(swept):
     assert not (folder/"remesh/0001/16000").exists()
 
 
+def test_dictionaries_have_every_digit_of_a_parameter(swept):
+    folder, rows = swept
+    case = FoamCase(folder/"morph/0003")
+    said = case.run("foamDictionary", "-entry", "DT", "-value",
+                    "constant/transportProperties")
+    # It prints six digits itself
+    assert float(said.split("]")[1]) == pytest.approx(
+        float(rows["morph"]["0003"]["diffusivity"]), rel=1e-5)
+    assert rows["morph"]["0003"]["diffusivity"] in (
+        case.path/"constant/transportProperties").read_text()
+
+
 def test_what_morphMesh_says_is_in_the_table(swept):
     rows = swept[1]["morph"]
     assert rows["0001"]["attainable"] == "1.0"
@@ -201,5 +213,5 @@ def test_an_entry_that_is_not_there_is_named_with_those_that_are(tmp_path):
     template(tmp_path/"case")
     said = command("check", study(tmp_path, STUDY.replace(
         "entry: DT", "entry: DX")), status=1)
-    assert ("diffusivity/entry: constant/transportProperties has no entry DX."
-            " In the file there are: FoamFile DT") in said
+    assert ("diffusivity/entry: constant/transportProperties: there is no entry"
+            " DX in the file, but FoamFile DT") in said
