@@ -23,6 +23,60 @@ License
 
 #include <cmath>
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Sine of the angle below which opposite normals are those of one plane
+static const scalar opposite = 0.02;
+
+
+static bool before
+(
+    const surfaceNormals::ofSurface& a,
+    const surfaceNormals::ofSurface& b
+)
+{
+    return
+        a.normal == b.normal
+      ? a.surface < b.surface
+      : std::lexicographical_compare
+        (
+            a.normal.cdata(), a.normal.cdata() + 3,
+            b.normal.cdata(), b.normal.cdata() + 3
+        );
+}
+
+
+// The direction of a vector, rounded to well above round-off, so that the order
+// of a summation leaves no trace and planes along the axes have exact normals
+static vector rounded(const vector& total)
+{
+    vector normal = total/max(mag(total), VSMALL);
+    for (direction d = 0; d < vector::nComponents; ++d)
+    {
+        normal[d] = std::ldexp(std::round(std::ldexp(normal[d], 40)), -40);
+    }
+    return normal;
+}
+
+
+// Sine of the largest angle between faces and a plane
+static scalar tilt(const vectorField& areas, const vector& normal)
+{
+    scalar sine = 0;
+    for (const vector& area : areas)
+    {
+        const vector tangential = area - (area & normal)*normal;
+        sine = max(sine, mag(tangential)/max(mag(area), VSMALL));
+    }
+    return sine;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
 Foam::surfaceNormals::plane Foam::surfaceNormals::planeOf
@@ -30,93 +84,102 @@ Foam::surfaceNormals::plane Foam::surfaceNormals::planeOf
     const vectorField& areas
 )
 {
-    const vector total = gSum(areas);
-
-    // Rounded to well above round-off, so that the order of summation, which
-    // is another for each decomposition, leaves no trace
-    vector normal = total/max(mag(total), VSMALL);
-    for (direction d = 0; d < vector::nComponents; ++d)
-    {
-        normal[d] = std::ldexp(std::round(std::ldexp(normal[d], 40)), -40);
-    }
-
-    scalar sine = 0;
-    for (const vector& area : areas)
-    {
-        const vector tangential = area - (area & normal)*normal;
-        sine = max(sine, mag(tangential)/max(mag(area), VSMALL));
-    }
-    reduce(sine, maxOp<scalar>());
-
+    const vector normal = rounded(gSum(areas));
+    const scalar sine = returnReduce(tilt(areas, normal), maxOp<scalar>());
     const bool empty = returnReduce(areas.size(), sumOp<label>()) == 0;
     return {normal, Foam::asin(min(sine, scalar(1))), empty};
 }
 
 
-Foam::List<Foam::vector> Foam::surfaceNormals::distinct
+Foam::surfaceNormals::plane Foam::surfaceNormals::planeThrough
 (
-    List<vector> normals,
+    const vectorField& areas
+)
+{
+    vector total(Zero);
+    for (const vector& area : areas)
+    {
+        total += (area & total) < 0 ? -area : area;
+    }
+    const vector normal = rounded(total);
+    const scalar sine = tilt(areas, normal);
+    return {normal, Foam::asin(min(sine, scalar(1))), areas.empty()};
+}
+
+
+Foam::vector Foam::surfaceNormals::cornerNormal
+(
+    const vector& a,
+    const vector& b,
+    const vector& area
+)
+{
+    const scalar size = max(mag(a)*mag(b), VSMALL);
+    const vector unit = area/max(mag(area), VSMALL);
+    const vector between = (a ^ b)/size;
+
+    // At a vertex between two edges in line the face has no normal of its own,
+    // and little weight
+    const vector n = mag(between) > 1e-6 ? between : vector(1e-6*unit);
+    return ((n & unit) < 0 ? -n : n)/size;
+}
+
+
+Foam::List<Foam::surfaceNormals::ofSurface> Foam::surfaceNormals::distinct
+(
+    List<ofSurface> normals,
     const scalar featureAngle
 )
 {
     // One order, whichever rank has which faces
-    std::sort
-    (
-        normals.begin(),
-        normals.end(),
-        [](const vector& a, const vector& b)
-        {
-            return std::lexicographical_compare
-            (
-                a.cdata(), a.cdata() + 3, b.cdata(), b.cdata() + 3
-            );
-        }
-    );
+    std::sort(normals.begin(), normals.end(), before);
 
-    DynamicList<vector> first, sum;
-    for (const vector& n : normals)
+    DynamicList<ofSurface> first;
+    DynamicList<vector> sum;
+    for (const ofSurface& n : normals)
     {
+        const vector unit = n.normal/mag(n.normal);
         label group = 0;
         while
         (
             group < first.size()
-         && mag(n & first[group]) < Foam::cos(featureAngle)
+         && (unit & first[group].normal) < Foam::cos(featureAngle)
         )
         {
             ++group;
         }
         if (group == first.size())
         {
-            first.append(n);
-            sum.append(n);
+            first.append({unit, n.surface});
+            sum.append(n.normal);
         }
         else
         {
-            sum[group] += sign(n & first[group])*n;
+            first[group].surface = min(first[group].surface, n.surface);
+            sum[group] += n.normal;
         }
     }
 
     // Those that the ones before do not imply, to within the angle
-    DynamicList<vector> independent, orthogonal;
-    for (vector n : sum)
+    DynamicList<ofSurface> independent;
+    DynamicList<vector> orthogonal;
+    forAll(sum, i)
     {
-        n /= mag(n);
+        const vector n = sum[i]/mag(sum[i]);
         vector rest = n;
         for (const vector& o : orthogonal)
         {
             rest -= (rest & o)*o;
         }
-        if
-        (
-            independent.size() < 3
-         && mag(rest) > 0.5*Foam::sin(featureAngle)
-        )
+        const scalar least =
+            orthogonal.size() == 1 ? opposite : 0.5*Foam::sin(featureAngle);
+        if (independent.size() < 3 && mag(rest) > least)
         {
-            independent.append(n);
+            independent.append({n, first[i].surface});
             orthogonal.append(rest/mag(rest));
         }
     }
-    return List<vector>(independent);
+    return List<ofSurface>(independent);
 }
 
 

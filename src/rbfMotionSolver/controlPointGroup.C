@@ -84,6 +84,7 @@ Foam::controlPointGroup::controlPointGroup
     name_(name),
     part_(dictionaryChecks::getChoice(dict, "type", partNames)),
     surface_(surfaceType::found),
+    target_(false),
     normal_(Zero),
     displacement_(nullptr)
 {
@@ -92,7 +93,7 @@ Foam::controlPointGroup::controlPointGroup
         dict,
         {
             "type", "patches", "faceZones", "pointZones", "points",
-            "displacement", "surface"
+            "displacement", "surface", "target"
         }
     );
 
@@ -145,6 +146,7 @@ Foam::controlPointGroup::controlPointGroup
     name_(mesh.boundaryMesh()[patchi].name()),
     part_(p),
     surface_(surfaceType::found),
+    target_(false),
     normal_(Zero),
     patches_(1, patchi),
     displacement_(nullptr)
@@ -233,17 +235,59 @@ void Foam::controlPointGroup::readNormal()
 }
 
 
+void Foam::controlPointGroup::readSurface()
+{
+    target_ = dict_.found("target");
+    if (target_)
+    {
+        surface_ = surfaceType::named;
+        return;
+    }
+
+    // A file name has an extension, unlike the words there are
+    const entry& e = *dict_.findEntry("surface");
+    const token first(e.isStream() ? e.stream()[0] : token());
+    const bool isFile =
+        first.isString()
+     || (first.isWord() && first.wordToken().find('.') != string::npos);
+    surface_ =
+        e.isDict() || isFile
+      ? surfaceType::named
+      : dictionaryChecks::getChoice(dict_, "surface", surfaceNames);
+}
+
+
 void Foam::controlPointGroup::checkSurface()
 {
-    if (dict_.found("surface"))
+    for (const word& key : {"surface", "target"})
     {
-        surface_ = dictionaryChecks::getChoice(dict_, "surface", surfaceNames);
-        if (!slides())
+        if (dict_.found(key) && !slides())
         {
             FatalIOErrorInFunction(dict_)
-                << "Entry 'surface' is for groups of type sliding; this one is "
-                << partNames[part_] << nl << exit(FatalIOError);
+                << "Entry '" << key << "' is for groups of type sliding; this"
+                << " one is " << partNames[part_] << nl << exit(FatalIOError);
         }
+    }
+    if (dict_.found("surface") && dict_.found("target"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Both 'surface' and 'target' are given" << nl
+            << "    'surface' is what the points are on, 'target' what they are"
+            << " to be on instead: give one of them" << nl
+            << exit(FatalIOError);
+    }
+    if (dict_.found("surface") || dict_.found("target"))
+    {
+        readSurface();
+    }
+    if (surface_ == surfaceType::named && dict_.found("displacement"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry '" << namedSurface().keyword() << "' names a surface,"
+            << " which a 'displacement' cannot move" << nl
+            << "    Remove one of them: 'displacement' moves the patch's own"
+            << " surface, 'target' names the one to slide onto" << nl
+            << exit(FatalIOError);
     }
     if (slides() && (pointZones_.size() || listed_.size()))
     {
@@ -355,30 +399,35 @@ Foam::labelHashSet Foam::controlPointGroup::meshPoints() const
 }
 
 
-Foam::labelList Foam::controlPointGroup::faces() const
+Foam::labelList Foam::controlPointGroup::faces(boolList& flips) const
 {
     DynamicList<label> selected;
+    DynamicList<bool> flipped;
     for (const label patchi : patches_)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
         selected.append(identity(patch.size(), patch.start()));
+        flipped.append(boolList(patch.size(), false));
     }
     for (const label zonei : faceZones_)
     {
-        for (const label facei : mesh_.faceZones()[zonei])
+        const faceZone& zone = mesh_.faceZones()[zonei];
+        forAll(zone, i)
         {
             // Two ranks have the faces between them: one of them counts
-            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+            const label patchi = mesh_.boundaryMesh().whichPatch(zone[i]);
             const auto* between =
                 patchi < 0
               ? nullptr
               : isA<processorPolyPatch>(mesh_.boundaryMesh()[patchi]);
             if (!between || between->owner())
             {
-                selected.append(facei);
+                selected.append(zone[i]);
+                flipped.append(zone.flipMap()[i]);
             }
         }
     }
+    flips.transfer(flipped);
     return labelList(selected);
 }
 

@@ -21,23 +21,21 @@ License
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "globalMeshData.H"
-#include "surfaceNormals.H"
 #include "syncTools.H"
 #include "StringStream.H"
-#include "unitConversion.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
 
-// A patch is planar where no face is tilted by more than this [rad]: meshes
-// written with six digits have not quite flat planes
-static const scalar planarAngle = 1e-3;
-
 // Points this close to the axis of a wedge, in units of the mesh's size, are on
 // it
 static const scalar samePlace = 1e-8;
+
+// Directions of conditions are renewed where the cosine of the angle to those
+// of the surface is smaller
+static const scalar turnedCosine = 0.5;
 
 // More than any displacement, for points whose displacement is not known yet;
 // its square is still a number
@@ -63,11 +61,23 @@ Foam::rbfControlPoints::rbfControlPoints
     points0_(points0),
     groups_(groups),
     plane_(plane),
-    featureAngle_(featureAngle),
     listedPoints_(points0, groups, plane)
 {
     assign();
     own();
+
+    boolList onAxis(controlled_.size());
+    forAll(onAxis, i)
+    {
+        onAxis[i] = group_[i] == groups_.size();
+    }
+    sliding_.reset
+    (
+        new slidingPoints
+        (
+            mesh, points0, groups, plane, featureAngle, controlled_, onAxis
+        )
+    );
 }
 
 
@@ -217,115 +227,6 @@ Foam::vectorField Foam::rbfControlPoints::displacements() const
 }
 
 
-Foam::vectorField Foam::rbfControlPoints::targetAreas
-(
-    const controlPointGroup& group,
-    const labelList& faces
-) const
-{
-    pointField target(points0_);
-    if (group.moves())
-    {
-        const labelList members(group.meshPoints().sortedToc());
-        const pointField positions(points0_, members);
-        const labelList listed(members.size(), -1);
-        const tmp<vectorField> td
-        (
-            group.displacement({positions, members, listed})
-        );
-        forAll(members, i)
-        {
-            target[members[i]] += td()[i];
-        }
-    }
-
-    const bool given = magSqr(group.normal()) > 0;
-    vectorField areas(faces.size());
-    forAll(faces, i)
-    {
-        const face& f = mesh_.faces()[faces[i]];
-        const vector area =
-            given ? group.normal()*f.mag(points0_) : f.areaNormal(target);
-        areas[i] = plane_.reduce(f.centre(points0_), area);
-    }
-    return areas;
-}
-
-
-bool Foam::rbfControlPoints::updateNormals()
-{
-    Map<label> place(2*controlled_.size());
-    forAll(controlled_, i)
-    {
-        place.insert(controlled_[i], i);
-    }
-
-    List<List<vector>> around(controlled_.size());
-    for (const controlPointGroup& group : groups_)
-    {
-        if (!group.slides())
-        {
-            continue;
-        }
-        const labelList faces(group.faces());
-        const vectorField areas(targetAreas(group, faces));
-        const surfaceNormals::plane plane = surfaceNormals::planeOf(areas);
-        const bool forced =
-            group.surface() == controlPointGroup::surfaceType::planar;
-        const bool planar =
-            group.surface() != controlPointGroup::surfaceType::curved
-         && plane.deviation < planarAngle;
-
-        if (forced && !planar)
-        {
-            FatalIOErrorInFunction(group.dict())
-                << "Group '" << group.name() << "' has 'surface planar' but"
-                << " its faces deviate by up to " << radToDeg(plane.deviation)
-                << " degrees from a plane" << nl
-                << "    Use 'surface curved', or one group for each plane"
-                << nl << exit(FatalIOError);
-        }
-
-        forAll(faces, i)
-        {
-            const vector n =
-                planar ? plane.normal : areas[i]/max(mag(areas[i]), VSMALL);
-            for (const label pointi : mesh_.faces()[faces[i]])
-            {
-                const auto found = place.cfind(pointi);
-                if (found.found())
-                {
-                    around[found.val()].append(n);
-                }
-            }
-        }
-    }
-
-    syncTools::syncPointList
-    (
-        mesh_,
-        controlled_,
-        around,
-        ListOps::appendEqOp<vector>(),
-        List<vector>(),
-        mapDistribute::transform()
-    );
-
-    forAll(around, i)
-    {
-        if (group_[i] == groups_.size())
-        {
-            around[i] = List<vector>(1, plane_.radial());
-        }
-        around[i] = surfaceNormals::distinct(around[i], featureAngle_);
-    }
-
-    const bool changed = around != normals_;
-    normals_.transfer(around);
-    return returnReduce(changed, orOp<bool>());
-}
-
-
 morph::ControlPoint Foam::rbfControlPoints::condition
 (
     const point& x,
@@ -354,20 +255,20 @@ morph::ControlPoint Foam::rbfControlPoints::condition
 void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 {
     morph::ControlPoints all;
-    DynamicList<label> labels;
+    DynamicList<label> places;
     forAll(controlled_, i)
     {
         if (owned_[i])
         {
             all.push_back(conditions_[i]);
-            labels.append(controlled_[i]);
+            places.append(i);
         }
     }
     forAll(freeValues, i)
     {
         const point x = listedPoints_.position(i);
         all.push_back(condition(x, false, List<vector>(), freeValues[i]));
-        labels.append(-1);
+        places.append(-1);
     }
 
     OStringStream message;
@@ -403,10 +304,13 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 
     candidates_.clear();
     candidatePoints_.setSize(kept.size());
-    forAll(candidatePoints_, i)
+    places_.setSize(kept.size());
+    forAll(candidatePoints_, j)
     {
-        candidates_.push_back(all[kept[i]]);
-        candidatePoints_[i] = labels[kept[i]];
+        const label i = places[kept[j]];
+        candidates_.push_back(all[kept[j]]);
+        candidatePoints_[j] = i < 0 ? -1 : controlled_[i];
+        places_[j] = i;
     }
 }
 
@@ -426,22 +330,33 @@ bool Foam::rbfControlPoints::surfacesMove() const
 }
 
 
-bool Foam::rbfControlPoints::update()
+bool Foam::rbfControlPoints::update(const bool anew)
 {
-    const bool first = conditions_.empty() && candidates_.empty();
-    const bool changed =
-        (returnReduce(first, andOp<bool>()) || surfacesMove())
-     && updateNormals();
-
+    const bool changed = sliding_->update(anew);
     const vectorField d(displacements());
+    if (changed || anew || start_.size() != d.size())
+    {
+        start_.setSize(d.size());
+        start_ = Zero;
+    }
+
+    follow_ = false;
     conditions_.setSize(controlled_.size());
     forAll(controlled_, i)
     {
-        const bool slides =
-            group_[i] == groups_.size() || groups_[group_[i]].slides();
-        conditions_[i] =
-            condition(points0_[controlled_[i]], slides, normals_[i], d[i]);
+        conditions_[i] = condition
+        (
+            points0_[controlled_[i]], slides(i), sliding_->normals(i), d[i]
+        );
+        morph::ControlPoint& p = conditions_[i];
+        if (p.slides() && sliding_->follows(i))
+        {
+            follow_ = true;
+            const vector s = d[i] + start_[i];
+            morph::slideOnto(p, toEigen(s), sliding_->planes(i, s));
+        }
     }
+    follow_ = returnReduce(follow_, orOp<bool>());
     collectCandidates(listedPoints_.displacements());
     return changed;
 }
@@ -464,20 +379,78 @@ void Foam::rbfControlPoints::imposePrescribed
 }
 
 
-void Foam::rbfControlPoints::impose(vectorField& displacement) const
+void Foam::rbfControlPoints::renew
+(
+    const morph::Vectors& s,
+    morph::ControlPoints& candidates
+)
+{
+    leastCosine_ = 1;
+    forAll(places_, j)
+    {
+        morph::ControlPoint& p = candidates[j];
+        if (p.slides() && sliding_->follows(places_[j]))
+        {
+            const morph::Vector3 here = s.row(j).transpose();
+            const double cosine = morph::slideOnto
+            (
+                p, here, sliding_->planes(places_[j], toFoam(here))
+            );
+            leastCosine_ = min(leastCosine_, cosine);
+        }
+    }
+}
+
+
+bool Foam::rbfControlPoints::turned() const
+{
+    return returnReduce(leastCosine_, minOp<scalar>()) < turnedCosine;
+}
+
+
+void Foam::rbfControlPoints::renewDirections(const morph::Vectors& s)
+{
+    forAll(places_, j)
+    {
+        const label i = places_[j];
+        morph::ControlPoint& p = candidates_[j];
+        if (!p.slides() || !sliding_->follows(i))
+        {
+            continue;
+        }
+        const morph::Vector3 here = s.row(j).transpose();
+        start_[i] = toFoam(here);
+        sliding_->renewDirections(i, start_[i]);
+        p = condition
+        (
+            points0_[controlled_[i]], true, sliding_->normals(i), start_[i]
+        );
+    }
+}
+
+
+void Foam::rbfControlPoints::impose
+(
+    vectorField& displacement,
+    const bool slidingToo
+) const
 {
     forAll(controlled_, i)
     {
         vector& d = displacement[controlled_[i]];
         const morph::ControlPoint& p = conditions_[i];
-        if (p.slides())
+        if (!p.slides())
+        {
+            d = toFoam(p.value);
+        }
+        else if (slidingToo && sliding_->follows(i))
+        {
+            d = sliding_->onto(i, d);
+        }
+        else if (slidingToo)
         {
             const morph::Vector3 s = toEigen(d);
             d += toFoam(p.C()*p.residual(s).head(p.k));
-        }
-        else
-        {
-            d = toFoam(p.value);
         }
     }
 }

@@ -236,6 +236,8 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     settings.surfaceCorrection =
         dict.getOrDefault<bool>("surfaceCorrection", false);
 
+    settings.exactSliding = dict.getOrDefault<bool>("exactSliding", true);
+
     const scalar degrees =
         dict.found("featureAngle")
       ? dictionaryChecks::getPositive(dict, "featureAngle")

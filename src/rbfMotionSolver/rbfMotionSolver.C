@@ -145,7 +145,7 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
             {
                 "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
                 "controlPoints", "greedy", "selection", "surfaceCorrection",
-                "featureAngle", "onInvalidMesh", "subSteps"
+                "featureAngle", "exactSliding", "onInvalidMesh", "subSteps"
             }
         );
     }
@@ -253,20 +253,25 @@ bool Foam::rbfMotionSolver::updateSupportRadius()
 }
 
 
-void Foam::rbfMotionSolver::prepareSelection
+morph::GreedySelection::Renewal Foam::rbfMotionSolver::renewal()
+{
+    if (!controlPoints_->follow())
+    {
+        return morph::GreedySelection::Renewal();
+    }
+    return [this](const morph::Vectors& s, morph::ControlPoints& candidates)
+    {
+        controlPoints_->renew(s, candidates);
+    };
+}
+
+
+void Foam::rbfMotionSolver::dropSelection
 (
     const bool first,
-    const bool newDirections,
     const bool newRadius
 )
 {
-    // After a write this run goes on as one that restarts from it does
-    const bool written = state_.wasWritten();
-    if (!first && !written && !newDirections && !newRadius)
-    {
-        return;
-    }
-
     // Directions that change from step to step are not known to a restart
     restored_.clear();
     if (!newRadius && !controlPoints_->surfacesMove())
@@ -324,7 +329,7 @@ void Foam::rbfMotionSolver::select(const bool first)
         }
         result = selection_->select
         (
-            controlPoints_->candidates(), communicator
+            controlPoints_->candidates(), communicator, renewal()
         );
     }
     catch (const std::exception& wrong)
@@ -387,7 +392,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
         inPlane[evaluated_[i]] = toFoam(s.row(i).transpose());
     }
     cyclicPoints::match(mesh(), inPlane);
-    controlPoints_->impose(inPlane);
+    controlPoints_->impose(inPlane, settings_.exactSliding);
 
     return expand(inPlane);
 }
@@ -448,7 +453,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
         controlPoints_->imposePrescribed(inPlane, fraction);
         if (fraction >= 1)
         {
-            controlPoints_->impose(inPlane);
+            controlPoints_->impose(inPlane, settings_.exactSliding);
         }
     };
     const morph::SubStepSettings settings
@@ -461,7 +466,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
     subSteppedMotion motion
     (
         mesh(), points0(), plane_(), controlPoints_(), evaluated_, settings,
-        morph::GreedySelection::Renewal(), constrain,
+        renewal(), constrain,
         [&](const vectorField& inPlane) { return expand(inPlane); }
     );
 
@@ -564,9 +569,14 @@ void Foam::rbfMotionSolver::solve()
         pointDisplacement_.correctBoundaryConditions();
     }
 
-    const bool newDirections = controlPoints_->update();
+    // After a write this run goes on as one that restarts from it does
+    const bool anew = state_.wasWritten() || first;
+    const bool newDirections = controlPoints_->update(anew);
     const bool newRadius = updateSupportRadius();
-    prepareSelection(first, newDirections, newRadius);
+    if (anew || newDirections || newRadius)
+    {
+        dropSelection(first, newRadius);
+    }
 
     if (supportRadius_ > 0)
     {

@@ -18,8 +18,9 @@ MAY_INCLUDE = {
     "meshValidity": ["foam", "numerics"],
     "ffd": ["foam", "numerics"],
     "motion": ["ffd", "foam", "numerics"],
-    "rbfMotionSolver": ["motion", "meshValidity", "controlGeometry", "foam",
-                        "numerics"],
+    "slidingSurface": ["foam"],
+    "rbfMotionSolver": ["motion", "meshValidity", "slidingSurface",
+                        "controlGeometry", "foam", "numerics"],
     "ffdMotionSolver": ["ffd", "meshValidity", "controlGeometry", "foam",
                         "numerics"],
 }

@@ -1,0 +1,67 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "cylinderSurface.H"
+#include "dictionaryChecks.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::word Foam::cylinderSurface::searchableType("searchableCylinder");
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cylinderSurface::cylinderSurface(const dictionary& dict)
+:
+    origin_(dict.get<point>("point1")),
+    axis_(dict.get<point>("point2") - origin_),
+    radius_(dictionaryChecks::getPositive(dict, "radius"))
+{
+    dictionaryChecks::onlyKeys(dict, {"type", "point1", "point2", "radius"});
+    if (mag(axis_) < VSMALL)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entries 'point1' and 'point2' are both " << origin_ << nl
+            << "    Give two points of the cylinder's axis" << nl
+            << exit(FatalIOError);
+    }
+    axis_ /= mag(axis_);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::slidingSurface::contact Foam::cylinderSurface::nearest
+(
+    const point& x
+) const
+{
+    const scalar along = (x - origin_) & axis_;
+    vector r = x - origin_ - along*axis_;
+    if (mag(r) < SMALL*radius_)
+    {
+        // On the axis every direction is as near
+        r = axis_ ^ (mag(axis_.x()) < 0.7 ? vector(1, 0, 0) : vector(0, 1, 0));
+    }
+    const vector n = r/mag(r);
+    return {origin_ + along*axis_ + radius_*n, n, false};
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,60 @@
+"""Meshes with curved sides on which points slide.
+
+    case = annulus(tmp_path, groups(...))
+    off = np.abs(np.linalg.norm(points[:, :2], axis=1) - 1)
+"""
+
+import numpy as np
+
+from boxCase import from_block_mesh, vectors
+from rbfCase import DROP_IN
+
+
+def annulus_mesh(cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0):
+    """Between two cylinders along z: patches hub, casing, zMin, zMax.
+
+    cells: around in each quarter, radial, along.
+    """
+    angles = np.arange(4)*np.pi/2
+    corners = [(r*np.cos(a), r*np.sin(a), z) for z in (0, length)
+               for r in (inner, outer) for a in angles]
+    blocks, arcs = "", ""
+    hub, casing, low, high = "", "", "", ""
+    for i in range(4):
+        j = (i + 1) % 4
+        # Of each level: inner 0-3, outer 4-7; the upper level is 8 on
+        base = (i, 4 + i, 4 + j, j)
+        top = tuple(v + 8 for v in base)
+        label = " ".join(map(str, base + top))
+        blocks += (f"hex ({label}) ({cells[1]} {cells[0]} {cells[2]})"
+                   " simpleGrading (1 1 1)\n")
+        middle = (i + 0.5)*np.pi/2
+        for level, z in ((0, 0), (8, length)):
+            for ring, r in ((0, inner), (4, outer)):
+                x = r*np.cos(middle), r*np.sin(middle), z
+                arcs += (f"arc {level + ring + i} {level + ring + j} "
+                         f"{vectors([x])[1:-1]}\n")
+        hub += f"({i} {j} {8 + j} {8 + i}) "
+        casing += f"({4 + i} {4 + j} {12 + j} {12 + i}) "
+        low += f"({' '.join(map(str, base))}) "
+        high += f"({' '.join(map(str, top))}) "
+    return f"""
+scale 1;
+vertices ( {vectors(corners)[1:-1]} );
+blocks ( {blocks} );
+edges ( {arcs} );
+boundary
+(
+    hub {{ type wall; faces ( {hub} ); }}
+    casing {{ type wall; faces ( {casing} ); }}
+    zMin {{ type patch; faces ( {low} ); }}
+    zMax {{ type patch; faces ( {high} ); }}
+);
+"""
+
+
+def annulus(path, coeffs, control=None, **mesh):
+    case = from_block_mesh(path, annulus_mesh(**mesh), control)
+    case.write("constant/dynamicMeshDict", "dictionary",
+               DROP_IN + f"rbfMotionSolverCoeffs\n{{\n{coeffs}\n}}")
+    return case
