@@ -8,6 +8,12 @@ import os
 DONE, FAILED = "done", "failed"
 BASELINE = "baseline"
 
+# An outcome of which nothing is known yet; what reading one falls back on
+BLANK = {
+    "startedFrom": "template", "baselineMade": None, "templateHash": None,
+    "wall": {}, "cpu": {}, "responses": {}, "notes": {}, "quality": {},
+    "motion": {}, "iterations": None, "picture": ""}
+
 
 def path(study, strategy, number=None):
     """Of a design, or of the baseline."""
@@ -27,7 +33,9 @@ def case(study, strategy, number=None):
 def read(study, strategy, number=None):
     """The outcome, or None."""
     file = path(study, strategy, number)
-    return json.loads(file.read_text()) if file.exists() else None
+    if not file.exists():
+        return None
+    return {**BLANK, **json.loads(file.read_text())}
 
 
 def write(study, outcome):

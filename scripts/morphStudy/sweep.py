@@ -96,7 +96,7 @@ def keepUp(study, strategy, numbers):
 def noteTemplate(study, found):
     """A template may be run in and written to: changes are no error."""
     now = caseFolder.templateHash(study)
-    older = [o for o in found if o["templateHash"] != now]
+    older = [o for o in found if o["templateHash"] not in (now, None)]
     if older:
         names = ", ".join(f"{o['number']:04d}" if o["number"] else "baseline"
                           for o in older[:5])

@@ -9,6 +9,7 @@ failure, and with 1 without one or where the baseline fails, as the designs
 cannot start without it."""
 
 import contextlib
+import copy
 import datetime
 import fcntl
 import os
@@ -58,20 +59,7 @@ class Worker:
     def work(self):
         """Make, run, read; again where it fails and retries are left."""
         for attempt in range(1, self.study.retries + 2):
-            self.outcome = {
-                "strategy": self.strategy.name, "number": self.number,
-                "parameters": self.parameters,
-                "derived": {
-                    d.name: float(self.study.values(self.parameters)[d.name])
-                    for d in self.study.derived},
-                "attempts": attempt, "startedFrom": "template",
-                "baselineMade": None, "wall": {}, "cpu": {},
-                "templateHash": caseFolder.templateHash(self.study),
-                "responses": {}, "notes": {}, "quality": {}, "motion": {},
-                "iterations": None,
-                "picture": "", "responseTexts": outcomes.responseTexts(
-                    self.study),
-                "made": outcomes.recipe(self.study, self.strategy.name)}
+            self.outcome = self.blank(attempt)
             try:
                 self.makeCase()
                 self.runSteps()
@@ -89,6 +77,19 @@ class Worker:
             timespec="seconds")
         outcomes.write(self.study, self.outcome)
         return status
+
+    def blank(self, attempt):
+        """The outcome before anything is done."""
+        study, values = self.study, self.study.values(self.parameters)
+        return {
+            **copy.deepcopy(outcomes.BLANK),
+            "strategy": self.strategy.name, "number": self.number,
+            "parameters": self.parameters,
+            "derived": {d.name: float(values[d.name]) for d in study.derived},
+            "attempts": attempt,
+            "templateHash": caseFolder.templateHash(study),
+            "responseTexts": outcomes.responseTexts(study),
+            "made": outcomes.recipe(study, self.strategy.name)}
 
     def makeCase(self):
         """The case folder, anew."""
