@@ -4,6 +4,7 @@ The command is bin/morphStudy; README.md beside this file has every key of the
 study file. One module per concern:
 
     expressions   what constraints and derived quantities may say
+    section       mappings of a file, with the keys they may have
     studyFile     reads the study file and says what is wrong with it
     sampling      factorial, Latin hypercube, Sobol, under constraints
     designs       the table of designs, which only grows

@@ -188,7 +188,7 @@ def describe(study, share):
         print("Note: the baseline is outside the designs' space ("
               + ", ".join([*outside, *broken]) + ")")
     if study.sampling.method == "factorial":
-        grid = len(sampling.sample(study, []))
-        print(f"factorial: {grid} of {np.prod(list(study.sampling.levels.values()))}"
-              " points of the grid keep to the constraints")
+        points = np.prod(list(study.sampling.levels.values()))
+        print(f"factorial: {len(sampling.sample(study, []))} of {points} points"
+              " of the grid keep to the constraints")
     print("No mistake found")

@@ -182,20 +182,25 @@ def compare(study, tables):
     rows = []
     for name, found in tables.items():
         row = {"strategy": name}
-        numbers = [k for k in found[0]
-                   if k == "iterations" or k.startswith(("time", "cpuTime", "mesh."))]
-        for key in numbers:
-            values = [r[key] for r in found if r.get(key) not in (None, "")]
-            if values:
-                row[key] = statistics.mean(values)
+        row.update(means(found, lambda k: k in (
+            "iterations", "time", "cpuTime")))
         for response in study.responses:
             off = [100*abs(a[response] - b[response])/abs(b[response])
                    for a, b in zip(found, first) if b[response]]
             if off:
                 row[f"{response}: mean difference %"] = statistics.mean(off)
                 row[f"{response}: largest %"] = max(off)
+        row.update(means(found, lambda k: k.startswith(
+            ("time.", "cpuTime.", "mesh."))))
         rows.append(row)
     return rows
+
+
+def means(rows, wanted):
+    """Of the columns that are wanted, over the rows that have them."""
+    values = {k: [r[k] for r in rows if r.get(k) not in (None, "")]
+              for k in rows[0] if wanted(k)}
+    return {k: statistics.mean(v) for k, v in values.items() if v}
 
 
 def report(study):

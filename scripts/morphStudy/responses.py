@@ -80,8 +80,8 @@ def ofCommand(command, case, environment):
     """The lines 'name value' that a command prints."""
     try:
         done = subprocess.run(
-            ["bash", "-c", command], cwd=case, text=True, timeout=COMMAND_TIMEOUT,
-            env=environment, stdin=subprocess.DEVNULL,
+            ["bash", "-c", command], cwd=case, text=True,
+            timeout=COMMAND_TIMEOUT, env=environment, stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except subprocess.TimeoutExpired:
         raise ResponseError(f"'{command}' ran into the timeout") from None
