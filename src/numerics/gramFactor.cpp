@@ -49,6 +49,21 @@ Matrix selectColumns(const Matrix& a, const std::vector<Index>& columns)
 }
 
 
+ControlPoints selectPoints
+(
+    const ControlPoints& list,
+    const std::vector<Index>& which
+)
+{
+    ControlPoints points;
+    for (const Index i : which)
+    {
+        points.push_back(list[i]);
+    }
+    return points;
+}
+
+
 // The rows in the system of points of a list
 std::vector<Index> rowsOf
 (
@@ -65,30 +80,6 @@ std::vector<Index> rowsOf
         }
     }
     return rows;
-}
-
-
-// Of a symmetric matrix that has only its lower triangle
-Matrix selectSymmetric
-(
-    const Matrix& a,
-    const std::vector<Index>& rows,
-    const std::vector<Index>& columns
-)
-{
-    Matrix b(rows.size(), columns.size());
-    for (std::size_t j = 0; j < columns.size(); ++j)
-    {
-        for (std::size_t i = 0; i < rows.size(); ++i)
-        {
-            b(i, j) = a
-            (
-                std::max(rows[i], columns[j]),
-                std::min(rows[i], columns[j])
-            );
-        }
-    }
-    return b;
 }
 
 
@@ -231,6 +222,17 @@ Matrix GramFactor::shift(const Columns& x) const
 }
 
 
+Matrix GramFactor::besideSliding(const Columns& x, const Matrix& Y) const
+{
+    Matrix t = kernelBlock(xS_, x);
+    if (t.size() > 0)
+    {
+        Y_.subtractTransposedTimes(Y, t);
+    }
+    return t;
+}
+
+
 GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
 {
     Residual result;
@@ -242,29 +244,46 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
 
     const Columns x = positions(list);
     result.Y = L_.solved(kernelBlock(xM_, x));
-    result.TKK = kernelBlock(x, x);
-    subtractSquare(result.TKK, result.Y);
-    result.TSK = kernelBlock(xS_, x);
-
     if (result.scalar)
     {
-        result.W = result.TKK;
-        for (std::size_t i = 0; i <= list.size(); ++i)
-        {
-            result.offset.push_back(i);
-        }
+        result.offset.resize(list.size() + 1);
+        std::iota(result.offset.begin(), result.offset.end(), Index(0));
         return result;
     }
-
     result.offset = offsets(list);
-    if (!sliding_.empty())
-    {
-        result.TSK.noalias() -= Y_.view().transpose()*result.Y;
-    }
-    result.Q = R_.solved(constrained(result.TSK, sliding_, list));
-    result.W = constrained(result.TKK, list, list, true);
-    subtractSquare(result.W, result.Q);
+    result.Q = R_.solved
+    (
+        constrained(besideSliding(x, result.Y), sliding_, list)
+    );
     return result;
+}
+
+
+Matrix GramFactor::columns
+(
+    const ControlPoints& list,
+    const Residual& residual,
+    const std::vector<Index>& which
+) const
+{
+    const ControlPoints some = selectPoints(list, which);
+    Matrix t = kernelBlock(positions(list), positions(some));
+    if (residual.Y.rows() > 0)
+    {
+        t.noalias() -=
+            residual.Y.transpose()*selectColumns(residual.Y, which);
+    }
+    if (residual.scalar)
+    {
+        return t;
+    }
+    Matrix w = constrained(t, list, some);
+    if (residual.Q.rows() > 0)
+    {
+        w.noalias() -= residual.Q.transpose()
+           *selectColumns(residual.Q, rowsOf(which, residual.offset));
+    }
+    return w;
 }
 
 
@@ -280,60 +299,41 @@ std::vector<bool> GramFactor::append
 (
     const ControlPoints& list,
     const std::vector<Index>& which,
-    const Residual& residual
+    Residual&& residual
 )
 {
-    std::vector<Index> P, Q;
-    ControlPoints prescribed, sliding;
+    std::vector<Index> P, S;
     for (const Index i : which)
     {
-        (list[i].slides() ? Q : P).push_back(i);
-        (list[i].slides() ? sliding : prescribed).push_back(list[i]);
+        (list[i].slides() ? S : P).push_back(i);
     }
+    const Matrix YP = selectColumns(residual.Y, P);
+    Matrix YS = selectColumns(residual.Y, S);
+    Matrix Q =
+        residual.scalar ? Matrix()
+      : selectColumns(residual.Q, rowsOf(S, residual.offset));
+    residual = Residual();
 
     Index nextPrescribed = prescribed_.size();
     Index nextSliding = sliding_.size();
+    const ControlPoints prescribed = selectPoints(list, P);
+    const ControlPoints sliding = selectPoints(list, S);
     Matrix l;
-    const bool prescribedIn = P.empty() || appendPrescribed
-    (
-        prescribed,
-        selectColumns(residual.Y, P),
-        selectSymmetric(residual.TKK, P, P),
-        selectColumns(residual.TSK, P),
-        l
-    );
+    const bool prescribedIn =
+        P.empty() || appendPrescribed(prescribed, YP, l);
 
-    // What the prescribed ones, if they are in, take from the sliding ones
-    Matrix Y = selectColumns(residual.Y, Q);
-    Matrix T = selectSymmetric(residual.TKK, Q, Q);
-    Matrix TS = selectColumns(residual.TSK, Q);
-    if (prescribedIn && !P.empty() && !Q.empty())
+    if (prescribedIn && !P.empty() && !S.empty())
     {
-        const Index n = nextPrescribed;
-        const Index m = P.size();
-        const Matrix rows =
-            l.triangularView<Eigen::Lower>().solve
-            (
-                selectSymmetric(residual.TKK, P, Q)
-            );
-        Y.conservativeResize(n + m, Q.size());
-        Y.bottomRows(m) = rows;
-        T.noalias() -= rows.transpose()*rows;
-        if (nextSliding > 0)
-        {
-            TS.noalias() -= Y_.view().bottomRows(m).transpose()*rows;
-        }
+        // What the prescribed ones take from the sliding ones
+        const Columns x = positions(sliding);
+        Matrix rows = kernelBlock(positions(prescribed), x);
+        rows.noalias() -= YP.transpose()*YS;
+        l.triangularView<Eigen::Lower>().solveInPlace(rows);
+        YS.conservativeResize(YS.rows() + rows.rows(), S.size());
+        YS.bottomRows(rows.rows()) = rows;
+        Q = R_.solved(constrained(besideSliding(x, YS), sliding_, sliding));
     }
-    const bool slidingIn = Q.empty() || appendSliding
-    (
-        sliding,
-        Y,
-        T,
-        TS,
-        prescribedIn && !P.empty()
-      ? R_.solved(constrained(TS, sliding_, sliding))
-      : selectColumns(residual.Q, rowsOf(Q, residual.offset))
-    );
+    const bool slidingIn = S.empty() || appendSliding(sliding, YS, Q);
 
     std::vector<bool> in;
     for (const Index i : which)
@@ -353,39 +353,35 @@ std::vector<bool> GramFactor::append
 bool GramFactor::appendPrescribed
 (
     const ControlPoints& points,
-    const Matrix& X,
-    const Matrix& T,
-    const Matrix& TS,
+    const Matrix& Y,
     Matrix& l
 )
 {
-    l = T;
+    const Columns x = positions(points);
+    l = kernelBlock(x, x);
+    subtractSquare(l, Y);
     if (!factorise(l))
     {
         return false;
     }
 
-    const Index n = xM_.rows();
-    const Index m = points.size();
-    const Index nS = xS_.rows();
-    if (nS > 0)
+    Matrix rows = besideSliding(x, Y).transpose();
+    if (rows.cols() > 0)
     {
-        const Matrix rows =
-            l.triangularView<Eigen::Lower>().solve(TS.transpose());
-        Matrix TSS = T_.view();
-        subtractSquare(TSS, rows);
-        Matrix R = constrained(TSS, sliding_, sliding_, true);
+        l.triangularView<Eigen::Lower>().solveInPlace(rows);
+        Matrix T = T_;
+        subtractSquare(T, rows);
+        Matrix R = constrained(T, sliding_, sliding_, true);
         if (!factorise(R))
         {
             return false;
         }
-        R_.set(std::move(R));
-        T_.view() = TSS;
-        Y_.grow(n + m, nS);
-        Y_.view().bottomRows(m) = rows;
+        R_.set(R);
+        T_.swap(T);
     }
+    Y_.appendRows(rows);
 
-    L_.append(X.transpose(), l);
+    L_.append(Y, l);
     morph::append(xM_, points);
     prescribed_.insert(prescribed_.end(), points.begin(), points.end());
     return true;
@@ -396,26 +392,27 @@ bool GramFactor::appendSliding
 (
     const ControlPoints& points,
     const Matrix& Y,
-    const Matrix& T,
-    const Matrix& TS,
-    const Matrix& X
+    const Matrix& Q
 )
 {
-    const Index n = xS_.rows();
-    const Index m = points.size();
+    const Columns x = positions(points);
+    Matrix T = kernelBlock(x, x);
+    subtractSquare(T, Y);
     Matrix D = constrained(T, points, points, true);
-    subtractSquare(D, X);
+    subtractSquare(D, Q);
     if (!factorise(D))
     {
         return false;
     }
 
-    R_.append(X.transpose(), D);
-    Y_.grow(xM_.rows(), n + m);
-    Y_.view().rightCols(m) = Y;
-    T_.grow(n + m, n + m);
-    T_.view().bottomLeftCorner(m, n) = TS.transpose();
-    T_.view().bottomRightCorner(m, m) = T;
+    const Matrix beside = besideSliding(x, Y);
+    const Index n = xS_.rows();
+    const Index m = x.rows();
+    R_.append(Q, D);
+    Y_.appendColumns(Y);
+    T_.conservativeResize(n + m, n + m);
+    T_.bottomLeftCorner(m, n) = beside.transpose();
+    T_.bottomRightCorner(m, m) = T;
     morph::append(xS_, points);
     sliding_.insert(sliding_.end(), points.begin(), points.end());
     return true;
@@ -454,7 +451,8 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
     Columns gamma = Columns::Zero(r + nM + nS, 3);
     if (nS > 0)
     {
-        const Matrix known = Y_.view().transpose()*z + shift(xS_);
+        Matrix known = shift(xS_);
+        Y_.subtractTransposedTimes(-z, known);
         const std::vector<Index> offset = offsets(sliding_);
         Matrix g(offset.back(), 1);
         for (Index i = 0; i < nS; ++i)
@@ -474,7 +472,7 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
                 p.C()*alpha.middleRows(offset[i], p.k);
             gamma.row(r + nM + i) = weight.transpose();
         }
-        z.noalias() -= Y_.view()*gamma.bottomRows(nS);
+        z -= Y_.times(gamma.bottomRows(nS));
     }
     gamma.middleRows(r, nM) = L_.solvedTransposed(z);
 

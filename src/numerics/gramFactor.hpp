@@ -61,30 +61,36 @@ public:
     Columns centres() const;
 
     // The system that is left for further points once those appended are
-    // eliminated, W = G_KK - G_KA G_AA^-1 G_AK, and the parts of it that
-    // appending them needs again. Where neither the list nor those appended
-    // slide, one row of W stands for the three of a point. Of W and TKK, which
-    // are symmetric, only the lower triangles are set.
+    // eliminated, W = G_KK - G_KA G_AA^-1 G_AK: what its columns, and appending
+    // the points, are computed from. Where neither the list nor those appended
+    // slide, one row of W stands for the three of a point.
     struct Residual
     {
-        Matrix W;
         std::vector<Index> offset;   // first row of each point, and the end
         bool scalar;
 
         Matrix Y;      // L^-1 K_MK
-        Matrix TKK;    // K_KK - Y^T Y
-        Matrix TSK;    // K_SK - Y_S^T Y
-        Matrix Q;      // R^-1 of TSK with its directions
+        Matrix Q;      // R^-1 of K_SK - Y_S^T Y with its directions
     };
     Residual residual(const ControlPoints& list) const;
 
+    // The columns of W that belong to some points of the list. W whole would be
+    // larger than the factors themselves
+    Matrix columns
+    (
+        const ControlPoints& list,
+        const Residual& residual,
+        const std::vector<Index>& which
+    ) const;
+
     // Appends points of a list and tells which of them are in: those with
-    // which the system would be singular to round-off are left out.
+    // which the system would be singular to round-off are left out. Takes the
+    // residual, to make room.
     std::vector<bool> append
     (
         const ControlPoints& list,
         const std::vector<Index>& which,
-        const Residual& residual
+        Residual&& residual
     );
 
     // Appends all points of a list
@@ -114,21 +120,18 @@ private:
     };
 
     Matrix kernelBlock(const Columns& a, const Columns& b) const;
+    Matrix besideSliding(const Columns& x, const Matrix& Y) const;
     bool appendPrescribed
     (
         const ControlPoints& points,
-        const Matrix& X,
-        const Matrix& T,
-        const Matrix& TS,
+        const Matrix& Y,
         Matrix& l
     );
     bool appendSliding
     (
         const ControlPoints& points,
         const Matrix& Y,
-        const Matrix& T,
-        const Matrix& TS,
-        const Matrix& X
+        const Matrix& Q
     );
     Matrix shift(const Columns& x) const;
 
@@ -148,7 +151,7 @@ private:
     ControlPoints sliding_;
     Columns xS_;
     GrowingMatrix Y_;
-    GrowingMatrix T_;   // lower triangle
+    Matrix T_;   // lower triangle
     GrowingTriangle R_;
 };
 

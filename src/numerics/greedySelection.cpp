@@ -618,9 +618,15 @@ Index GreedySelection::pointsPerSweep() const
     {
         return blockOfAll;
     }
-    return settings_.pointsPerSweep > 0
-      ? settings_.pointsPerSweep
-      : std::max<Index>(4, origins_.size()/10);
+    if (settings_.pointsPerSweep > 0)
+    {
+        return settings_.pointsPerSweep;
+    }
+
+    // A tenth of what is there; where that is much, less, since the work on a
+    // list grows with its square and exceeds that of a sweep
+    const Index n = origins_.size();
+    return std::max<Index>(4, std::min(n/10, 25 + n/20));
 }
 
 

@@ -1,16 +1,17 @@
-// A matrix to which rows and columns are appended, with room kept in reserve so
-// that growing it one by one does not copy it each time.
+// A matrix to which rows and columns are appended.
 
 #ifndef morph_growingMatrix_hpp
 #define morph_growingMatrix_hpp
 
 #include "arrays.hpp"
 
-#include <algorithm>
+#include <vector>
 
 namespace morph
 {
 
+// Stored in panels of rows. Neither rows nor columns that are added make a copy
+// of the whole: rows go into new panels, and columns are at a panel's end.
 class GrowingMatrix
 {
 public:
@@ -19,33 +20,23 @@ public:
 
     Index cols() const { return cols_; }
 
-    auto view() { return store_.topLeftCorner(rows_, cols_); }
+    // x: m x cols
+    void appendRows(const Matrix& x);
 
-    auto view() const { return store_.topLeftCorner(rows_, cols_); }
+    // x: rows x m
+    void appendColumns(const Matrix& x);
 
-    // What is added is not initialised
-    void grow(Index rows, Index cols)
-    {
-        const auto room = [](Index needed, Index there)
-        {
-            return
-                needed <= there ? there
-              : std::max(needed, there + there/16 + 16);
-        };
-        store_.conservativeResize
-        (
-            room(rows, store_.rows()),
-            room(cols, store_.cols())
-        );
-        rows_ = rows;
-        cols_ = cols;
-    }
+    // from -= A^T b
+    void subtractTransposedTimes(const Matrix& b, Matrix& from) const;
+
+    // A b
+    Matrix times(const Matrix& b) const;
 
 private:
 
-    Matrix store_ = Matrix(0, 0);
     Index rows_ = 0;
     Index cols_ = 0;
+    std::vector<Matrix> panels_;
 };
 
 } // namespace morph

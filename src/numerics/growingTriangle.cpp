@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include <utility>
+#include <algorithm>
 
 namespace morph
 {
@@ -16,7 +16,7 @@ constexpr Index leastRows = 64;
 } // namespace
 
 
-void GrowingTriangle::append(const Matrix& left, const Matrix& corner)
+void GrowingTriangle::append(const Matrix& above, const Matrix& corner)
 {
     const Index m = corner.rows();
     const Index n = size_ + m;
@@ -29,18 +29,24 @@ void GrowingTriangle::append(const Matrix& left, const Matrix& corner)
     Matrix grown(r + m, n);
     grown.topLeftCorner(r, size_) = last;
     grown.topRightCorner(r, m).setZero();
-    grown.bottomLeftCorner(m, size_) = left;
+    grown.bottomLeftCorner(m, size_) = above.transpose();
     grown.bottomRightCorner(m, m) = corner;
     last.swap(grown);
     size_ = n;
 }
 
 
-void GrowingTriangle::set(Matrix lower)
+void GrowingTriangle::set(const Matrix& lower)
 {
-    size_ = lower.rows();
+    size_ = 0;
     panels_.clear();
-    panels_.push_back(std::move(lower));
+    const Index n = lower.rows();
+    while (size_ < n)
+    {
+        const Index m = std::min(leastRows, n - size_);
+        panels_.push_back(lower.block(size_, 0, m, size_ + m));
+        size_ += m;
+    }
 }
 
 

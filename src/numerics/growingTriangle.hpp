@@ -18,12 +18,12 @@ public:
 
     Index size() const { return size_; }
 
-    // [L 0; left corner], left: m x size, corner: m x m, of which only the
+    // [L 0; above^T corner], above: size x m, corner: m x m, of which only the
     // lower triangle is looked at
-    void append(const Matrix& left, const Matrix& corner);
+    void append(const Matrix& above, const Matrix& corner);
 
     // Replaces everything; again the lower triangle counts
-    void set(Matrix lower);
+    void set(const Matrix& lower);
 
     // L^-1 b
     Matrix solved(Matrix b) const;

@@ -37,6 +37,25 @@ Columns directions(const ControlPoints& points)
 }
 
 
+// The rows among the conditions of some of the points
+std::vector<Index> rowsOf
+(
+    const std::vector<Index>& points,
+    const std::vector<Index>& first
+)
+{
+    std::vector<Index> rows;
+    for (const Index i : points)
+    {
+        for (Index row = first[i]; row < first[i + 1]; ++row)
+        {
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
+
+
 // g of all conditions
 Eigen::VectorXd values(const ControlPoints& points)
 {
@@ -98,6 +117,24 @@ Matrix ImageSystem::block
 }
 
 
+std::vector<double> ImageSystem::eliminateFrom(const ControlPoints& points)
+{
+    first_ = firstRows(points);
+    W_ = block(points, points);
+    std::vector<double> scale;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        scale.push_back
+        (
+            W_.diagonal().segment(first_[i], points[i].k).maxCoeff()
+        );
+    }
+    Y_ = L_.solved(block(points_, points));
+    W_.noalias() -= Y_.transpose()*Y_;
+    return scale;
+}
+
+
 ControlSystem::Choice ImageSystem::choose
 (
     const std::vector<Listed>& list,
@@ -111,19 +148,7 @@ ControlSystem::Choice ImageSystem::choose
     {
         points.push_back(entry.point);
     }
-    first_ = firstRows(points);
-    W_ = block(points, points);
-
-    std::vector<double> scale;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-        scale.push_back
-        (
-            W_.diagonal().segment(first_[i], points[i].k).maxCoeff()
-        );
-    }
-    Y_ = L_.solved(block(points_, points));
-    W_.noalias() -= Y_.transpose()*Y_;
+    const std::vector<double> scale = eliminateFrom(points);
 
     Matrix r(first_.back(), 1);
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -131,7 +156,20 @@ ControlSystem::Choice ImageSystem::choose
         r.middleRows(first_[i], points[i].k) =
             list[i].residual.head(points[i].k);
     }
-    return pivotedChoice(W_, first_, r, scale, most, least, outside);
+    return pivotedChoice
+    (
+        [this](const std::vector<Index>& which)
+        {
+            const std::vector<Index> columns = rowsOf(which, first_);
+            Matrix w(W_.rows(), columns.size());
+            for (std::size_t j = 0; j < columns.size(); ++j)
+            {
+                w.col(j) = W_.col(columns[j]);
+            }
+            return w;
+        },
+        first_, r, scale, most, least, outside
+    );
 }
 
 
@@ -141,36 +179,41 @@ std::vector<bool> ImageSystem::append
     const std::vector<Index>& chosen
 )
 {
-    std::vector<Index> rows;
-    for (const Index i : chosen)
+    std::vector<Index> which = chosen;
+    if (W_.size() == 0)
     {
-        for (Index row = first_[i]; row < first_[i + 1]; ++row)
+        // Not chosen from the list
+        ControlPoints points;
+        for (std::size_t i = 0; i < chosen.size(); ++i)
         {
-            rows.push_back(row);
+            points.push_back(list[chosen[i]].point);
+            which[i] = i;
         }
+        eliminateFrom(points);
     }
+    const std::vector<Index> rows = rowsOf(which, first_);
     const Index n = rows.size();
-    Matrix corner(n, n), left(n, L_.size());
+    Matrix corner(n, n), above(L_.size(), n);
     for (Index p = 0; p < n; ++p)
     {
-        left.row(p) = Y_.col(rows[p]).transpose();
+        above.col(p) = Y_.col(rows[p]);
         for (Index q = 0; q < n; ++q)
         {
             corner(p, q) = W_(rows[p], rows[q]);
         }
     }
+    Y_.resize(0, 0);
+    W_.resize(0, 0);
     const Eigen::LLT<Matrix> factor(corner);
     if (factor.info() != Eigen::Success)
     {
         return std::vector<bool>(chosen.size(), false);
     }
-    L_.append(left, factor.matrixL());
+    L_.append(above, factor.matrixL());
     for (const Index i : chosen)
     {
         points_.push_back(list[i].point);
     }
-    Y_.resize(0, 0);
-    W_.resize(0, 0);
     return std::vector<bool>(chosen.size(), true);
 }
 

@@ -47,13 +47,17 @@ private:
     // G of the conditions of a with those of b
     Matrix block(const ControlPoints& a, const ControlPoints& b) const;
 
+    // What is left for a list once the points there are are eliminated;
+    // returns the scales of its points' pivots
+    std::vector<double> eliminateFrom(const ControlPoints& points);
+
     Kernel kernel_;
     ImageGroup images_;
 
     ControlPoints points_;
     GrowingTriangle L_;
 
-    // Of the list last chosen from: first rows of its points, and the end;
+    // Of the list last chosen from, until something of it is appended: first rows of its points, and the end;
     // L^-1 G_SK, and what is left of G_KK
     std::vector<Index> first_;
     Matrix Y_;

@@ -2,6 +2,8 @@
 
 #include "pivotedChoice.hpp"
 
+#include <utility>
+
 namespace morph
 {
 
@@ -81,7 +83,10 @@ ControlSystem::Choice IncrementalSystem::choose
     }
     return pivotedChoice
     (
-        residual_.W,
+        [this](const std::vector<Index>& which)
+        {
+            return factor_.columns(points_, residual_, which);
+        },
         residual_.offset,
         rightHandSide(list, residual_),
         scale,
@@ -107,9 +112,8 @@ std::vector<bool> IncrementalSystem::append
         }
         return factor_.append(points);
     }
-    const std::vector<bool> in = factor_.append(points_, chosen, residual_);
-    // As large as the factors themselves, and of no use any more
-    residual_ = GramFactor::Residual();
+    const std::vector<bool> in =
+        factor_.append(points_, chosen, std::move(residual_));
     points_.clear();
     return in;
 }

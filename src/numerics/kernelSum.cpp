@@ -25,6 +25,9 @@ void addBlock
     double* __restrict__ sumZ
 )
 {
+    double partX[blockSize] = {};
+    double partY[blockSize] = {};
+    double partZ[blockSize] = {};
     for (Index j = 0; j < nCentres; ++j)
     {
         const double cx = centres[0][j];
@@ -40,10 +43,16 @@ void addBlock
             const double dy = y[i] - cy;
             const double dz = z[i] - cz;
             const double phi = Formula::value(dx*dx + dy*dy + dz*dz);
-            sumX[i] += phi*wx;
-            sumY[i] += phi*wy;
-            sumZ[i] += phi*wz;
+            partX[i] += phi*wx;
+            partY[i] += phi*wy;
+            partZ[i] += phi*wz;
         }
+    }
+    for (Index i = 0; i < blockSize; ++i)
+    {
+        sumX[i] += partX[i];
+        sumY[i] += partY[i];
+        sumZ[i] += partZ[i];
     }
 }
 

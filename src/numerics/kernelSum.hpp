@@ -14,7 +14,10 @@ namespace morph
 // independent of how points are distributed.
 constexpr Index blockSize = 32;
 
-// Adds sum_j phi(|x_i - c_j|/r0) w_j to s_i for the points i of whole blocks.
+// Adds sum_j phi(|x_i - c_j|/r0) w_j, summed apart, to s_i for the points i of
+// whole blocks. Many centres are best given in groups: where weights cancel,
+// most additions are then of numbers smaller than the largest partial sum, and
+// the round-off is half.
 //
 // points, sums: n x 3 columns (n a multiple of blockSize) given by the pointers
 // to their columns; centres, weights: m x 3 likewise. Positions are in units of

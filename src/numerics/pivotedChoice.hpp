@@ -5,6 +5,8 @@
 
 #include "controlSystem.hpp"
 
+#include <functional>
+
 namespace morph
 {
 
@@ -12,19 +14,22 @@ namespace morph
 // round-off
 constexpr double leastPivot = 1e-12;
 
+// The columns of a symmetric matrix that belong to some points of a list
+using ColumnsOfPoints = std::function<Matrix(const std::vector<Index>&)>;
+
 // The standard greedy algorithm on a list alone: a Cholesky factorisation, block
 // by block, of the system W that what is selected leaves for the points of the
 // list, each pivot the point with the largest error left. A point chosen so
 // takes its influence on the others of the list with it.
 //
-// W: symmetric, of which the lower triangle counts; first: the first row of each
-// point in it, and the end; r: the residuals, with one row for each of W; scale:
+// system: W by its columns; first: the first row of each point in it, and the
+// end; r: the residuals, with one row for each of W; scale:
 // of each point's pivot. most, least and outside: see ControlSystem::choose().
 ControlSystem::Choice pivotedChoice
 (
-    const Matrix& W,
+    const ColumnsOfPoints& system,
     const std::vector<Index>& first,
-    Matrix r,
+    const Matrix& r,
     const std::vector<double>& scale,
     Index most,
     double least,

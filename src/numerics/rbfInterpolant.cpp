@@ -5,6 +5,16 @@
 namespace morph
 {
 
+namespace
+{
+
+// Centres whose sum is formed apart from that of the others (kernelSum.hpp).
+// Those left out of a group do not change the groups
+constexpr Index groupSize = 64;
+
+} // namespace
+
+
 RbfInterpolant::RbfInterpolant(const Kernel& kernel)
 :
     kernel_(kernel),
@@ -56,6 +66,7 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
     const double reach2 = 1 + 1e-12;
 
     Columns c(n, 3), w(n, 3), x, sums;
+    std::vector<Index> groupEnds;   // in c and w
     for (const PointCloud::Leaf& leaf : points.leaves())
     {
         PointCloud::Leaf box = leaf;
@@ -63,6 +74,7 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
         box.high = scale*(leaf.high - from.transpose());
 
         Index m = 0;
+        groupEnds.clear();
         for (Index j = 0; j < n; ++j)
         {
             const Vector3 centre = scaled.row(j).transpose();
@@ -71,6 +83,10 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
                 c.row(m) = scaled.row(j);
                 w.row(m) = weights_.row(j);
                 ++m;
+            }
+            if ((j + 1)%groupSize == 0 || j + 1 == n)
+            {
+                groupEnds.push_back(m);
             }
         }
 
@@ -81,13 +97,26 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
 
         const double* const xs[3] =
             {x.col(0).data(), x.col(1).data(), x.col(2).data()};
-        const double* const cs[3] =
-            {c.col(0).data(), c.col(1).data(), c.col(2).data()};
-        const double* const ws[3] =
-            {w.col(0).data(), w.col(1).data(), w.col(2).data()};
         double* const ss[3] =
             {sums.col(0).data(), sums.col(1).data(), sums.col(2).data()};
-        addKernelSum(kernel_.type(), xs, size, cs, ws, m, ss);
+        Index begin = 0;
+        for (const Index end : groupEnds)
+        {
+            const double* const cs[3] =
+            {
+                c.col(0).data() + begin,
+                c.col(1).data() + begin,
+                c.col(2).data() + begin
+            };
+            const double* const ws[3] =
+            {
+                w.col(0).data() + begin,
+                w.col(1).data() + begin,
+                w.col(2).data() + begin
+            };
+            addKernelSum(kernel_.type(), xs, size, cs, ws, end - begin, ss);
+            begin = end;
+        }
 
         if (polynomial_)
         {
