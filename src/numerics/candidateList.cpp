@@ -93,32 +93,14 @@ private:
     std::unordered_set<Key, Hash> taken_;
 };
 
-} // namespace
-
-
-bool Listed::precedes(const Listed& a, const Listed& b)
-{
-    if (a.error != b.error)
-    {
-        return a.error > b.error;
-    }
-    if (a.point.position != b.point.position)
-    {
-        return before(a.point.position, b.point.position);
-    }
-    return a.point.k > b.point.k;
-}
-
-
-std::vector<Listed> candidateList
+// This rank's candidates with the largest errors, of each cell the first
+std::vector<Index> worstFirst
 (
     const ControlPoints& candidates,
     const Errors& errors,
     double least,
-    Index length,
-    double cell,
-    Communicator& communicator,
-    double& outside
+    Index most,
+    double cell
 )
 {
     // A heap gives the worst first without sorting all of them. Without cells
@@ -143,64 +125,206 @@ std::vector<Listed> candidateList
           ? a.error < b.error
           : before(candidates[b.index].position, candidates[a.index].position);
     };
-    if (!(cell > 0) && length + 1 < Index(heap.size()))
+    if (!(cell > 0) && most < Index(heap.size()))
     {
         std::nth_element
         (
             heap.begin(),
-            heap.begin() + length,
+            heap.begin() + most,
             heap.end(),
             [&](const Bad& a, const Bad& b) { return better(b, a); }
         );
-        heap.resize(length + 1);
+        heap.resize(most);
     }
     std::make_heap(heap.begin(), heap.end(), better);
 
-    std::vector<double> mine;
+    std::vector<Index> first;
     Thinning thinning(cell);
-    for (Index n = 0; n <= length && !heap.empty(); )
+    while (Index(first.size()) < most && !heap.empty())
     {
         std::pop_heap(heap.begin(), heap.end(), better);
         const Index i = heap.back().index;
         heap.pop_back();
         if (thinning.first(candidates[i].position))
         {
-            const Vector3 residual = errors.residuals.row(i).transpose();
-            pack
-            (
-                mine,
-                {
-                    candidates[i], residual, errors.norms[i],
-                    communicator.rank(), i
-                }
-            );
-            ++n;
+            first.push_back(i);
         }
     }
+    return first;
+}
 
-    const std::vector<double> all = communicator.gather(mine);
-    std::vector<Listed> offered;
-    for (std::size_t i = 0; i < all.size(); i += packedSize)
-    {
-        offered.push_back(unpack(&all[i]));
-    }
-    std::sort(offered.begin(), offered.end(), Listed::precedes);
 
-    outside = 0;
+// The first of each cell, at most so many
+std::vector<Listed> firstOfCells
+(
+    const std::vector<Listed>& sorted,
+    double cell,
+    Index most
+)
+{
     std::vector<Listed> list;
-    Thinning together(cell);
-    for (const Listed& entry : offered)
+    Thinning thinning(cell);
+    for (const Listed& entry : sorted)
     {
-        if (!together.first(entry.point.position))
+        if (Index(list.size()) < most && thinning.first(entry.point.position))
         {
-            continue;
+            list.push_back(entry);
         }
-        if (Index(list.size()) == length)
+    }
+    return list;
+}
+
+
+// Of a histogram of errors: four for each factor of two below the largest, and
+// the last one for all that are smaller
+constexpr int bins = 64;
+
+
+int binOf(double error, double largest)
+{
+    const double below = 4*std::log2(largest/error);
+    return below > 0 ? int(std::min(below, bins - 1.0)) : 0;
+}
+
+
+// How many candidates of all ranks there are in each bin
+std::vector<double> histogram
+(
+    const Errors& errors,
+    const std::vector<Index>& which,
+    double largest,
+    Communicator& communicator
+)
+{
+    std::vector<double> counts(bins, 0.0);
+    for (const Index i : which)
+    {
+        ++counts[binOf(errors.norms[i], largest)];
+    }
+    return communicator.sum(counts);
+}
+
+
+void packCandidate
+(
+    std::vector<double>& buffer,
+    const ControlPoints& candidates,
+    const Errors& errors,
+    Index i,
+    int rank
+)
+{
+    const Vector3 residual = errors.residuals.row(i).transpose();
+    pack(buffer, {candidates[i], residual, errors.norms[i], rank, i});
+}
+
+
+void unpackAll(const std::vector<double>& buffer, std::vector<Listed>& list)
+{
+    for (std::size_t i = 0; i < buffer.size(); i += packedSize)
+    {
+        list.push_back(unpack(&buffer[i]));
+    }
+}
+
+} // namespace
+
+
+bool Listed::precedes(const Listed& a, const Listed& b)
+{
+    if (a.error != b.error)
+    {
+        return a.error > b.error;
+    }
+    if (a.point.position != b.point.position)
+    {
+        return before(a.point.position, b.point.position);
+    }
+    return a.point.k > b.point.k;
+}
+
+
+std::vector<Listed> worstCandidate
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Communicator& communicator
+)
+{
+    std::vector<double> mine;
+    for (const Index i : worstFirst(candidates, errors, least, 1, 0))
+    {
+        packCandidate(mine, candidates, errors, i, communicator.rank());
+    }
+    std::vector<Listed> offered;
+    unpackAll(communicator.gather(mine), offered);
+    std::sort(offered.begin(), offered.end(), Listed::precedes);
+    offered.resize(std::min<std::size_t>(1, offered.size()));
+    return offered;
+}
+
+
+std::vector<Listed> candidateList
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Index length,
+    double cell,
+    double largest,
+    Communicator& communicator,
+    double& outside
+)
+{
+    // One more, whose error is the one outside
+    const std::vector<Index> bad =
+        worstFirst(candidates, errors, least, length + 1, cell);
+    const std::vector<double> counts = histogram
+    (
+        errors, bad, largest, communicator
+    );
+
+    // Of the worst of each rank as many as are in the list for certain, and
+    // more while the cells that several ranks share leave it too short: what
+    // has larger errors decides about what has smaller ones, so that nothing
+    // held back could change the list
+    std::vector<Listed> offered, list;
+    std::size_t sent = 0;
+    double all = 0;
+    for (int bin = 0; bin < bins; )
+    {
+        const double needed = all + double(length + 1) - double(list.size());
+        for (; bin < bins && all < needed; ++bin)
         {
-            outside = entry.error;
+            all += counts[bin];
+        }
+        std::vector<double> mine;
+        for
+        (
+          ; sent < bad.size() && binOf(errors.norms[bad[sent]], largest) < bin
+          ; ++sent
+        )
+        {
+            packCandidate
+            (
+                mine, candidates, errors, bad[sent], communicator.rank()
+            );
+        }
+        unpackAll(communicator.gather(mine), offered);
+        std::sort(offered.begin(), offered.end(), Listed::precedes);
+        list = firstOfCells(offered, cell, length + 1);
+        if (Index(list.size()) > length)
+        {
             break;
         }
-        list.push_back(entry);
+    }
+
+    outside = 0;
+    if (Index(list.size()) > length)
+    {
+        outside = list.back().error;
+        list.pop_back();
     }
     return list;
 }

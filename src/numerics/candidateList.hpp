@@ -30,10 +30,24 @@ struct Errors
     std::vector<char> available;    // n: neither selected nor rejected
 };
 
+// The candidate of all ranks with the largest error, if one exceeds `least`.
+// Every rank sends one; collective.
+std::vector<Listed> worstCandidate
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Communicator& communicator
+);
+
 // The `length` candidates of all ranks with the largest errors above `least`,
 // at most one per cell of size `cell` [m] (none if zero); sorted, the same on
 // every rank whatever the distribution. `outside` receives the error of the
-// first that did not find a place, zero if all did.
+// first that did not find a place, zero if all did. `largest` is the largest
+// error of all ranks.
+//
+// A histogram of all ranks' errors tells each from where on it need not send:
+// together they send hardly more than the list has. Collective.
 std::vector<Listed> candidateList
 (
     const ControlPoints& candidates,
@@ -41,6 +55,7 @@ std::vector<Listed> candidateList
     double least,
     Index length,
     double cell,
+    double largest,
     Communicator& communicator,
     double& outside
 );

@@ -1,18 +1,60 @@
 #include "exactSurface.hpp"
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 namespace morph
 {
 
-namespace
+void ExactSurface::start
+(
+    const ControlPoints& controlPoints,
+    Communicator& communicator,
+    const Vectors& points
+)
 {
+    std::vector<double> mine;
+    for (const ControlPoint& p : controlPoints)
+    {
+        mine.insert
+        (
+            mine.end(), p.position.data(), p.position.data() + 3
+        );
+    }
+    const std::vector<double> all = communicator.gather(mine);
+    const auto position = [&all](Index i)
+    {
+        return Vector3(Eigen::Map<const Vector3>(&all[3*i]));
+    };
 
-// Position and residual
-using Row = std::array<double, 6>;
+    // One order, whichever rank they are from
+    std::vector<Index> order(all.size()/3);
+    std::iota(order.begin(), order.end(), Index(0));
+    std::sort
+    (
+        order.begin(),
+        order.end(),
+        [&](Index a, Index b) { return before(position(a), position(b)); }
+    );
 
-} // namespace
+    centre_.resize(order.size());
+    Columns centres(order.size(), 3);
+    nCentres_ = 0;
+    for (std::size_t k = 0; k < order.size(); ++k)
+    {
+        const Vector3 x = position(order[k]);
+        if (k == 0 || x != position(order[k - 1]))
+        {
+            centres.row(nCentres_++) = x.transpose();
+        }
+        centre_[order[k]] = nCentres_ - 1;
+    }
+    correction_.reset
+    (
+        new SurfaceCorrection(centres.topRows(nCentres_), radius_)
+    );
+    reach_ = correction_->reach(points);
+}
 
 
 void ExactSurface::add
@@ -24,47 +66,33 @@ void ExactSurface::add
     Vectors& displacements
 )
 {
-    std::vector<double> mine;
-    for (std::size_t i = 0; i < controlPoints.size(); ++i)
-    {
-        const Vector3& x = controlPoints[i].position;
-        const Vector3 r = residuals.row(i).transpose();
-        mine.insert(mine.end(), x.data(), x.data() + 3);
-        mine.insert(mine.end(), r.data(), r.data() + 3);
-    }
-    const std::vector<double> all = communicator.gather(mine);
-
-    // One order, and one of several at a place, whichever rank they are from
-    std::vector<Row> rows(all.size()/6);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-        std::copy_n(&all[6*i], 6, rows[i].begin());
-    }
-    std::sort(rows.begin(), rows.end());
-    const auto last = std::unique
-    (
-        rows.begin(),
-        rows.end(),
-        [](const Row& a, const Row& b)
-        {
-            return std::equal(a.begin(), a.begin() + 3, b.begin());
-        }
-    );
-    rows.erase(last, rows.end());
-
-    Columns centres(rows.size(), 3);
-    Vectors open(rows.size(), 3);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-        centres.row(i) << rows[i][0], rows[i][1], rows[i][2];
-        open.row(i) << rows[i][3], rows[i][4], rows[i][5];
-    }
     if (!correction_)
     {
-        correction_.reset(new SurfaceCorrection(centres, radius_));
+        start(controlPoints, communicator, points);
+    }
+    const std::vector<double> all = communicator.gather
+    (
+        std::vector<double>
+        (
+            residuals.data(), residuals.data() + residuals.size()
+        )
+    );
+
+    // Of several at a place the first by its residual
+    Vectors open(nCentres_, 3);
+    std::vector<char> there(nCentres_, 0);
+    for (std::size_t i = 0; i < centre_.size(); ++i)
+    {
+        const Vector3 r = Eigen::Map<const Vector3>(&all[3*i]);
+        const Index c = centre_[i];
+        if (!there[c] || before(r, open.row(c).transpose()))
+        {
+            open.row(c) = r.transpose();
+            there[c] = 1;
+        }
     }
     correction_->set(open);
-    correction_->add(points, displacements);
+    correction_->add(reach_, displacements);
 }
 
 } // namespace morph

@@ -14,7 +14,8 @@ namespace morph
 
 // Lets a displacement field that meets the conditions of control points but for
 // some residuals meet them exactly (surfaceCorrection.hpp). Every rank gets the
-// positions and residuals of all control points: 48 B for each.
+// positions of all control points once, and their residuals each time: 24 B for
+// each. Who reaches whom is found once.
 class ExactSurface
 {
 public:
@@ -24,7 +25,8 @@ public:
 
     // residuals: C (g - C^T s) at the control points of this rank: n x 3 [m].
     // Adds to the displacements at points what is missing: m x 3 [m] each.
-    // Called again, the control points must be the same. Collective.
+    // Called again, the control points and the points must be the same.
+    // Collective.
     void add
     (
         const ControlPoints& controlPoints,
@@ -36,8 +38,21 @@ public:
 
 private:
 
+    void start
+    (
+        const ControlPoints& controlPoints,
+        Communicator& communicator,
+        const Vectors& points
+    );
+
     double radius_;
     std::unique_ptr<SurfaceCorrection> correction_;
+    SurfaceCorrection::Reach reach_;
+
+    // Of the control points of all ranks, as they are gathered, which centre
+    // they are: several may be at one place
+    std::vector<Index> centre_;
+    Index nCentres_ = 0;
 };
 
 } // namespace morph

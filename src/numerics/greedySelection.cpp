@@ -392,10 +392,7 @@ bool GreedySelection::addPoints
     {
         Stopwatch time(result.listTime);
         double outside = 0;
-        list = candidateList
-        (
-            candidates, errors_, least, 1, 0, communicator, outside
-        );
+        list = worstCandidate(candidates, errors_, least, communicator);
         const Index room = settings_.maxPoints - Index(origins_.size());
         if (list.empty() || room <= 0)
         {
@@ -411,6 +408,7 @@ bool GreedySelection::addPoints
                 least,
                 settings_.all ? most : listFactor*most,
                 settings_.all ? 0 : cellSize(list.front()),
+                list.front().error,
                 communicator,
                 outside
             );

@@ -36,8 +36,7 @@ std::vector<Listed> farthest
         far.available[i] = slidingToo || !p.slides();
         far.norms[i] = basis.size() > 0 ? basis.distance(p.position) : 1.0;
     }
-    double outside;
-    return candidateList(candidates, far, 0, 1, 0, communicator, outside);
+    return worstCandidate(candidates, far, 0, communicator);
 }
 
 } // namespace

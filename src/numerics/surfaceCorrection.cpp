@@ -98,6 +98,7 @@ SurfaceCorrection::SurfaceCorrection(const Columns& centres, double radius)
         }
         levels_.push_back(makeLevel(left, h));
     }
+    among_ = reach(centres);
 }
 
 
@@ -158,28 +159,97 @@ SurfaceCorrection::Level SurfaceCorrection::makeLevel
 }
 
 
-Vector3 SurfaceCorrection::at(const Level& level, const Vector3& x) const
+SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt
+(
+    const Level& level,
+    const Vectors& points,
+    std::vector<std::int32_t>& near
+) const
 {
     const Kernel kernel(KernelType::wendlandC2, level.radius);
-    Vector3 sum = Vector3::Zero();
-    cellsAround
-    (
-        level.grid, x, level.radius,
-        [&](const std::vector<Index>& there)
+    Reach::Level reach;
+    std::vector<std::int32_t> still;
+    for (const std::int32_t i : near)
+    {
+        const Vector3 x = points.row(i);
+        bool isNear = false;
+        cellsAround
+        (
+            level.all, x, level.radius,
+            [&](const std::vector<Index>&) { isNear = true; }
+        );
+        if (!isNear)
         {
-            for (const Index j : there)
-            {
-                const Vector3 d = centres_.row(j).transpose() - x;
-                sum += kernel(d.norm())*coefficients_.row(j).transpose();
-            }
+            continue;
         }
-    );
-    return sum;
+        still.push_back(i);
+
+        const std::size_t begin = reach.centres.size();
+        cellsAround
+        (
+            level.grid, x, level.radius,
+            [&](const std::vector<Index>& there)
+            {
+                for (const Index j : there)
+                {
+                    const double value =
+                        kernel((centres_.row(j).transpose() - x).norm());
+                    if (value != 0)
+                    {
+                        reach.centres.push_back(j);
+                        reach.values.push_back(value);
+                    }
+                }
+            }
+        );
+        if (reach.centres.size() > begin)
+        {
+            reach.points.push_back(i);
+            reach.begin.push_back(begin);
+        }
+    }
+    reach.begin.push_back(reach.centres.size());
+    near.swap(still);
+    return reach;
+}
+
+
+SurfaceCorrection::Reach SurfaceCorrection::reach(const Vectors& points) const
+{
+    Reach reach;
+    std::vector<std::int32_t> near(points.rows());
+    std::iota(near.begin(), near.end(), 0);
+    for (const Level& level : levels_)
+    {
+        reach.levels_.push_back(reachAt(level, points, near));
+    }
+    return reach;
+}
+
+
+void SurfaceCorrection::addLevel
+(
+    const Reach::Level& reach,
+    double factor,
+    Vectors& displacements
+) const
+{
+    for (std::size_t i = 0; i < reach.points.size(); ++i)
+    {
+        Vector3 sum = Vector3::Zero();
+        for (std::size_t k = reach.begin[i]; k < reach.begin[i + 1]; ++k)
+        {
+            sum += reach.values[k]
+               *coefficients_.row(reach.centres[k]).transpose();
+        }
+        displacements.row(reach.points[i]) += factor*sum.transpose();
+    }
 }
 
 
 void SurfaceCorrection::set(const Vectors& residuals)
 {
+    // What a level has met stays met: no later one reaches its points
     Vectors open = residuals;
     for (std::size_t l = 0; l < levels_.size(); ++l)
     {
@@ -187,41 +257,16 @@ void SurfaceCorrection::set(const Vectors& residuals)
         {
             coefficients_.row(i) = open.row(i);
         }
-        for (std::size_t later = l + 1; later < levels_.size(); ++later)
-        {
-            for (const Index i : levels_[later].members)
-            {
-                open.row(i) -= at(levels_[l], centres_.row(i)).transpose();
-            }
-        }
+        addLevel(among_.levels_[l], -1, open);
     }
 }
 
 
-void SurfaceCorrection::add(const Vectors& points, Vectors& displacements) const
+void SurfaceCorrection::add(const Reach& points, Vectors& displacements) const
 {
-    std::vector<Index> near(points.rows());
-    std::iota(near.begin(), near.end(), Index(0));
-    for (const Level& level : levels_)
+    for (const Reach::Level& level : points.levels_)
     {
-        // Out of reach of all centres at this level is so at all later ones
-        std::vector<Index> still;
-        for (const Index i : near)
-        {
-            const Vector3 x = points.row(i);
-            bool reached = false;
-            cellsAround
-            (
-                level.all, x, level.radius,
-                [&](const std::vector<Index>&) { reached = true; }
-            );
-            if (reached)
-            {
-                displacements.row(i) += at(level, x).transpose();
-                still.push_back(i);
-            }
-        }
-        near.swap(still);
+        addLevel(level, 1, displacements);
     }
 }
 

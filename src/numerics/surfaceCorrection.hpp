@@ -31,8 +31,30 @@ public:
     // What is to be added at the centres: n x 3 [m]
     void set(const Vectors& residuals);
 
-    // Adds the correction at points to their displacements: m x 3 [m] each
-    void add(const Vectors& points, Vectors& displacements) const;
+    // Which centres reach which of some points, and by how much: this depends
+    // on the geometry alone, and is what takes the time
+    class Reach
+    {
+        friend class SurfaceCorrection;
+
+        // For each level the points within reach of some centre of it; where
+        // their centres begin among all, and at last the end; the centres and
+        // the values of the kernel
+        struct Level
+        {
+            std::vector<std::int32_t> points;
+            std::vector<std::size_t> begin;
+            std::vector<std::int32_t> centres;
+            std::vector<double> values;
+        };
+        std::vector<Level> levels_;
+    };
+
+    // points: m x 3 [m]
+    Reach reach(const Vectors& points) const;
+
+    // Adds the correction at the points to their displacements: m x 3 [m]
+    void add(const Reach& points, Vectors& displacements) const;
 
     // Levels of the hierarchy
     Index levels() const { return levels_.size(); }
@@ -74,10 +96,27 @@ private:
     // Takes from the points that are left those that make up a level
     Level makeLevel(std::vector<Index>& left, double radius) const;
 
-    Vector3 at(const Level& level, const Vector3& x) const;
+    // Of some of the points, at one level. Those out of reach of the cells of
+    // all centres, whatever their level, are taken off the list: so they are at
+    // all later ones
+    Reach::Level reachAt
+    (
+        const Level& level,
+        const Vectors& points,
+        std::vector<std::int32_t>& near
+    ) const;
+
+    // Adds `factor` times what a level does at its points
+    void addLevel
+    (
+        const Reach::Level& reach,
+        double factor,
+        Vectors& displacements
+    ) const;
 
     Columns centres_;
     std::vector<Level> levels_;
+    Reach among_;   // the centres
     Vectors coefficients_;
 };
 

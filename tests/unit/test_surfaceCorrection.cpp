@@ -1,5 +1,6 @@
 // The correction that makes the field exact at points that were not selected.
 
+#include "exactSurface.hpp"
 #include "surfaceCorrection.hpp"
 #include "test_support.hpp"
 
@@ -42,7 +43,7 @@ TEST(SurfaceCorrection, meetsEveryResidual)
     SurfaceCorrection correction(surface.x, 0.2);
     correction.set(surface.residuals);
     Vectors d = Vectors::Zero(3000, 3);
-    correction.add(surface.x, d);
+    correction.add(correction.reach(surface.x), d);
     EXPECT_TRUE(within
     (
         "surface correction at its points",
@@ -60,7 +61,7 @@ TEST(SurfaceCorrection, isZeroBeyondItsRadius)
     correction.set(surface.residuals);
     Vectors x(3, 3), d = Vectors::Zero(3, 3);
     x << 0, 0, 0, 0.61, 0, 0, 0, 0.3, 0.2;
-    correction.add(x, d);
+    correction.add(correction.reach(x), d);
     EXPECT_EQ(d, Vectors::Zero(3, 3));
 }
 
@@ -71,7 +72,7 @@ TEST(SurfaceCorrection, changesNothingWhereNothingIsLeft)
     SurfaceCorrection correction(surface.x, 0.1);
     correction.set(Vectors::Zero(500, 3));
     Vectors d = surface.residuals;
-    correction.add(surface.x, d);
+    correction.add(correction.reach(surface.x), d);
     EXPECT_EQ(d, surface.residuals);
 }
 
@@ -85,7 +86,7 @@ TEST(SurfaceCorrection, movesTheNeighbourhoodWithTheSurface)
     correction.set(surface.residuals);
     Vectors off = 1.000002*surface.x;
     Vectors d = Vectors::Zero(3000, 3);
-    correction.add(off, d);
+    correction.add(correction.reach(off), d);
     const double gradient =
         (d - surface.residuals).rowwise().norm().maxCoeff()/1e-6;
     EXPECT_LT(gradient, 0.5);
@@ -99,8 +100,67 @@ TEST(SurfaceCorrection, followsNewResiduals)
     correction.set(surface.residuals);
     correction.set(-3*surface.residuals);
     Vectors d = Vectors::Zero(400, 3);
-    correction.add(surface.x, d);
+    correction.add(correction.reach(surface.x), d);
     EXPECT_LT((d + 3*surface.residuals).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+
+TEST(ExactSurface, isTheSameOnAnyRanksAndWithNewResiduals)
+{
+    // One place twice, as where ranks share a point
+    const Surface surface(300, 6);
+    const auto pointAt = [&](Index i)
+    {
+        return ControlPoint::prescribed
+        (
+            surface.x.row(i%300).transpose(), Vector3::Zero()
+        );
+    };
+    Vectors near(600, 3);
+    near << surface.x, 1.001*surface.x;
+    Vectors expected;
+    for (const int ranks : {1, 3})
+    {
+        std::vector<Vectors> moved(ranks);
+        onRanks
+        (
+            ranks,
+            [&](Communicator& communicator)
+            {
+                const int rank = communicator.rank();
+                ControlPoints mine;
+                std::vector<Vector3> residuals;
+                for (Index i = rank; i < 301; i += ranks)
+                {
+                    mine.push_back(pointAt(i));
+                    residuals.push_back(surface.residuals.row(i%300));
+                }
+                ExactSurface exact(0.2);
+                for (const double factor : {1.0, -3.0})
+                {
+                    moved[rank] = Vectors::Zero(600, 3);
+                    exact.add
+                    (
+                        mine, factor*rows(residuals), communicator, near,
+                        moved[rank]
+                    );
+                }
+            }
+        );
+        if (ranks == 1)
+        {
+            const Vectors open = -3*surface.residuals;
+            EXPECT_LT
+            (
+                (moved[0].topRows(300) - open).cwiseAbs().maxCoeff(), 1e-15
+            );
+            expected = moved[0];
+        }
+        for (const Vectors& d : moved)
+        {
+            EXPECT_EQ(d, expected);
+        }
+    }
 }
 
 
@@ -108,7 +168,7 @@ TEST(SurfaceCorrection, copesWithNoPoints)
 {
     SurfaceCorrection correction(Columns(0, 3), 1);
     Vectors d = Vectors::Zero(1, 3);
-    correction.add(Vectors::Zero(1, 3), d);
+    correction.add(correction.reach(Vectors::Zero(1, 3)), d);
     EXPECT_EQ(d, Vectors::Zero(1, 3));
 }
 
