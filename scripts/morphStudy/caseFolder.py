@@ -6,6 +6,7 @@ import hashlib
 import os
 import re
 import shutil
+from pathlib import Path
 
 from . import foamEntry
 from .errors import StudyError
@@ -57,23 +58,28 @@ def copyTemplate(study, target):
                     ignore=leftOut(study))
 
 
-def templateHash(study):
-    """Of the files that are copied: of what is in them, or of large ones (meshes)
-    how large they are."""
-    ignore, digest = leftOut(study), hashlib.sha256()
+def templateFiles(study):
+    """The files that are copied, in the order of their names."""
+    ignore = leftOut(study)
     for folder, folders, files in os.walk(study.template):
         left = ignore(folder, [*folders, *files])
         folders[:] = sorted(set(folders) - left)
         for name in sorted(set(files) - left):
-            path = os.path.join(folder, name)
-            digest.update(os.path.relpath(path, study.template).encode())
-            if os.path.islink(path):
-                digest.update(os.readlink(path).encode())
-            elif os.path.getsize(path) > HASHED:
-                digest.update(str(os.path.getsize(path)).encode())
-            else:
-                with open(path, "rb") as file:
-                    digest.update(file.read())
+            yield Path(folder) / name
+
+
+def templateHash(study):
+    """Of what is in the template's files, or of large ones (meshes) how large
+    they are."""
+    digest = hashlib.sha256()
+    for path in templateFiles(study):
+        digest.update(str(path.relative_to(study.template)).encode())
+        if path.is_symlink():
+            digest.update(os.readlink(path).encode())
+        elif path.stat().st_size > HASHED:
+            digest.update(str(path.stat().st_size).encode())
+        else:
+            digest.update(path.read_bytes())
     return digest.hexdigest()
 
 

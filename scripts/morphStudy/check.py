@@ -1,5 +1,6 @@
 """The verb check: what can be known to be wrong before anything runs."""
 
+import contextlib
 import re
 import shlex
 import subprocess
@@ -7,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import foamEntry, sampling
+from . import caseFolder, foamEntry, sampling
 from .errors import StudyError
 
 # Larger files of a template are meshes and fields
@@ -38,15 +39,10 @@ def checkFolders(study):
 def texts(study):
     """The template's text files, as far as they are copied: {path: text}."""
     found = {}
-    skip = [Path(p) for p in (study.folder,)]
-    for path in sorted(study.template.rglob("*")):
-        if any(s == path or s in path.parents for s in skip):
-            continue
+    for path in caseFolder.templateFiles(study):
         if path.is_file() and path.stat().st_size < TEXT_LIMIT:
-            try:
+            with contextlib.suppress(UnicodeDecodeError):
                 found[path.relative_to(study.template)] = path.read_text()
-            except (UnicodeDecodeError, OSError):
-                pass
     return found
 
 

@@ -54,10 +54,10 @@ def isDone(outcome):
 
 
 def recipe(study, strategy):
-    """Everything of the study file that made a design what it is; responses are
-    read again where only they change."""
+    """Everything of the study file that made a design what it is. Without paths,
+    so that a study may be moved; responses are read again where only they
+    change."""
     made = {
-        "template": str(study.template),
         "exclude": study.exclude,
         "parametersFile": study.parametersFile,
         "targets": {name: [t.file, t.entry] for name, t in study.targets()},
@@ -80,8 +80,7 @@ def steps(items):
 def changes(study, strategy, outcome):
     """The keys of the recipe in which an outcome differs."""
     now = json.loads(json.dumps(recipe(study, strategy)))
-    made = outcome["made"]
-    return sorted(k for k in {*now, *made} if now.get(k) != made.get(k))
+    return sorted(k for k in now if now[k] != outcome["made"].get(k))
 
 
 def responseTexts(study):

@@ -146,6 +146,19 @@ def test_killed_in_the_middle_it_goes_on_and_repeats_nothing(
     assert all(runs(study, name) == 2 for name in halfMade if runs(study, name))
 
 
+def test_interrupted_it_stops_at_once_and_says_so(undisturbed):
+    study, _ = undisturbed
+    outcomes.path(study, "morph", 1).unlink()
+    sweep_ = subprocess.Popen(
+        [ROOT/"bin/morphStudy", "run", study.path], text=True,
+        env={**os.environ, "PAUSE": "20"}, stdout=subprocess.PIPE)
+    waitUntil(lambda: runs(study, "0001") == 2, "no design started")
+    sweep_.send_signal(signal.SIGINT)
+    assert "The same command goes on from here" in sweep_.communicate()[0]
+    assert sweep_.returncode == 130
+    waitUntil(lambda: not processes(study.folder), "something still runs")
+
+
 def test_two_sweeps_at_once_are_refused(undisturbed):
     with sweep.onlyOne(undisturbed[0]):
         with pytest.raises(StudyError, match="another morphStudy is at work"):
