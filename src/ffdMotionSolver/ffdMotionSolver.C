@@ -19,6 +19,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "ffdMotionSolver.H"
+#include "ffdPreview.H"
 #include "addToRunTimeSelectionTable.H"
 #include "cyclicPoints.H"
 #include "dictionaryChecks.H"
@@ -313,24 +314,7 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 
 Foam::List<Foam::controlShape> Foam::ffdMotionSolver::shapes() const
 {
-    List<controlShape> shapes(boxes_.boxes().size());
-    forAll(shapes, boxi)
-    {
-        const ffdBox& box = boxes_.boxes()[boxi];
-        controlShape& shape = shapes[boxi];
-        shape.name = box.name();
-
-        // The same on every rank: one shows it
-        vectorField displacement;
-        if (Pstream::master())
-        {
-            shape.points = box.lattice(true);
-            shape.lines = box.latticeLines();
-            displacement = shape.points - box.lattice(false);
-        }
-        shape.vectors.set("displacement", displacement);
-    }
-    return shapes;
+    return ffdPreview::lattices(boxes_);
 }
 
 

@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "controlGeometry": [],
     "catalyst": ["controlGeometry", "foam"],
     "meshValidity": ["foam", "numerics"],
-    "ffd": ["foam", "numerics"],
+    "ffd": ["controlGeometry", "foam", "numerics"],
     "motion": ["ffd", "foam", "numerics"],
     "slidingSurface": ["foam"],
     "rbfMotionSolver": ["motion", "meshValidity", "slidingSurface",

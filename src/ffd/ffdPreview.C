@@ -1,0 +1,134 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "ffdPreview.H"
+#include "foamVtkSurfaceWriter.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace ffdPreview
+{
+
+static controlShape lattice(const ffdBox& box, const bool moved)
+{
+    controlShape shape;
+    shape.name = moved ? box.name() : word(box.name() + "AtRest");
+    vectorField displacement;
+    if (Pstream::master())
+    {
+        shape.points = box.lattice(moved);
+        shape.lines = box.latticeLines();
+        displacement = shape.points - box.lattice(false);
+    }
+    shape.vectors.insert("displacement", displacement);
+    return shape;
+}
+
+
+//- The displacement with these values; false if they fold a box
+static bool displacementFor
+(
+    ffdBoxes& boxes,
+    const scalarField& values,
+    vectorField& displacement
+)
+{
+    const bool threw = FatalIOError.throwExceptions();
+    bool folds = false;
+    try
+    {
+        boxes.update(values);
+        displacement = boxes.displacement();
+    }
+    catch (const IOerror&)
+    {
+        folds = true;
+    }
+    FatalIOError.throwExceptions(threw);
+    return !folds;
+}
+
+} // End namespace ffdPreview
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::List<Foam::controlShape> Foam::ffdPreview::lattices(const ffdBoxes& boxes)
+{
+    DynamicList<controlShape> shapes;
+    for (const ffdBox& box : boxes.boxes())
+    {
+        shapes.append(lattice(box, true));
+        shapes.append(lattice(box, false));
+    }
+    return List<controlShape>(shapes);
+}
+
+
+void Foam::ffdPreview::write
+(
+    ffdBoxes& boxes,
+    const pointField& points,
+    const faceList& faces,
+    const fileName& folder
+)
+{
+    controlGeometry::write(lattices(boxes), folder);
+
+    const scalarField present(boxes.values());
+    const wordList names(boxes.parameterNames());
+    forAll(names, i)
+    {
+        for (const bool low : {true, false})
+        {
+            const scalar bound =
+                low ? boxes.parameter(i).min() : boxes.parameter(i).max();
+            if (mag(bound) > 0.5*GREAT)
+            {
+                continue;
+            }
+            scalarField values(present);
+            values[i] = bound;
+            vectorField displacement;
+            if (!displacementFor(boxes, values, displacement))
+            {
+                Info<< "With " << names[i] << " at " << bound
+                    << " the box folds: no preview of it" << nl;
+                continue;
+            }
+            const pointField moved(points + displacement);
+            vtk::surfaceWriter writer
+            (
+                moved,
+                faces,
+                folder/(names[i] + (low ? ".min" : ".max"))
+            );
+            writer.writeGeometry();
+        }
+    }
+    boxes.update(present);
+    boxes.displacement();
+    Info<< "Wrote lattices and previews to " << folder.c_str() << endl;
+}
+
+
+// ************************************************************************* //
