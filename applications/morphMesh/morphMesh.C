@@ -46,6 +46,18 @@ Usage
       - \par -dryRun
         Write nothing, say what would be written.
 
+      - \par -lattice
+        Also show what controls the motion, before a flow is run: control
+        points of rbfMotionSolver, lattices of ffdMotionSolver, and the boundary
+        for each parameter of a lattice at its bounds, as VTK files in the
+        folder \c controls beside quality.dat. Also with -dryRun.
+
+      - \par -derivatives \<patches\>
+        For ffdMotionSolver: area, volume and centroid of patches, for example
+        '(hull)', with their derivatives by each parameter, and dx/dmu at the
+        points of the patches: measures.dat, derivatives.dat and
+        derivatives.vtp beside quality.dat. Also with -dryRun.
+
       - \par -region \<name\>
         The mesh region.
 
@@ -84,6 +96,7 @@ Usage
 #include "Time.H"
 #include "fvMesh.H"
 #include "clockTime.H"
+#include "morphMeshControls.H"
 #include "morphMeshInput.H"
 #include "morphMeshOutput.H"
 #include "motionLimiter.H"
@@ -164,6 +177,17 @@ int main(int argc, char *argv[])
         "dryRun",
         "Write nothing, say what would be written"
     );
+    argList::addBoolOption
+    (
+        "lattice",
+        "Write control points, lattices and each parameter at its bounds as VTK"
+    );
+    argList::addOption
+    (
+        "derivatives",
+        "patches",
+        "Write derivatives of area, volume and centroid of these patches"
+    );
     #include "addRegionOption.H"
     #include "setRootCase.H"
     #include "createTime.H"
@@ -200,6 +224,29 @@ int main(int argc, char *argv[])
     const pointField newPoints(moved(mesh, solvers));
     const scalar solveTime = clock.timeIncrement();
 
+    if (args.found("lattice"))
+    {
+        morphMeshControls::write
+        (
+            mesh,
+            solvers,
+            runTime.globalPath()/morphMeshOutput::folder(mesh)/"controls"
+        );
+    }
+    wordRes patches;
+    if (args.readIfPresent("derivatives", patches))
+    {
+        morphMeshControls::writeDerivatives
+        (
+            mesh,
+            solvers,
+            patches,
+            runTime.globalPath()/morphMeshOutput::folder(mesh)
+        );
+    }
+
+    const scalar showTime = clock.timeIncrement();
+
     const meshQuality before(mesh, mesh.points());
     const meshQuality after(mesh, newPoints);
     const scalar checkTime = clock.timeIncrement();
@@ -232,7 +279,7 @@ int main(int argc, char *argv[])
     Info<< nl << "Wall time [s]: reading " << readTime
         << ", solver construction " << constructTime
         << ", solve " << solveTime << ", check " << checkTime
-        << ", write " << clock.timeIncrement()
+        << ", write " << showTime + clock.timeIncrement()
         << nl << nl << (after.valid() ? "End" : motionLimiter::failed) << nl
         << endl;
 

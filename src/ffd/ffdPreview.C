@@ -66,6 +66,33 @@ static bool displacementFor
     return !folds;
 }
 
+//- The points of some faces, without the others
+struct compactFaces
+{
+    labelList labels;
+    faceList faces;
+
+    explicit compactFaces(const faceList& given)
+    :
+        faces(given)
+    {
+        Map<label> place(4*given.size());
+        DynamicList<label> used;
+        for (face& f : faces)
+        {
+            for (label& pointi : f)
+            {
+                if (place.insert(pointi, used.size()))
+                {
+                    used.append(pointi);
+                }
+                pointi = place[pointi];
+            }
+        }
+        labels.transfer(used);
+    }
+};
+
 } // End namespace ffdPreview
 } // End namespace Foam
 
@@ -94,6 +121,7 @@ void Foam::ffdPreview::write
 {
     controlGeometry::write(lattices(boxes), folder);
 
+    const compactFaces shown(faces);
     const scalarField present(boxes.values());
     const wordList names(boxes.parameterNames());
     forAll(names, i)
@@ -115,11 +143,14 @@ void Foam::ffdPreview::write
                     << " the box folds: no preview of it" << nl;
                 continue;
             }
-            const pointField moved(points + displacement);
+            const pointField moved
+            (
+                pointField(points + displacement), shown.labels
+            );
             vtk::surfaceWriter writer
             (
                 moved,
-                faces,
+                shown.faces,
                 folder/(names[i] + (low ? ".min" : ".max"))
             );
             writer.writeGeometry();
@@ -128,6 +159,35 @@ void Foam::ffdPreview::write
     boxes.update(present);
     boxes.displacement();
     Info<< "Wrote lattices and previews to " << folder.c_str() << endl;
+}
+
+
+void Foam::ffdPreview::writeDerivatives
+(
+    ffdBoxes& boxes,
+    const pointField& points,
+    const faceList& faces,
+    const fileName& file
+)
+{
+    const compactFaces shown(faces);
+    const pointField moved
+    (
+        pointField(points + boxes.displacement()), shown.labels
+    );
+    vtk::surfaceWriter writer(moved, shown.faces, file);
+    writer.writeGeometry();
+
+    const wordList names(boxes.parameterNames());
+    writer.beginPointData(names.size());
+    forAll(names, i)
+    {
+        writer.write
+        (
+            "d_" + names[i],
+            vectorField(boxes.derivative(i)(), shown.labels)
+        );
+    }
 }
 
 

@@ -1,0 +1,205 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "morphMeshControls.H"
+#include "controlGeometry.H"
+#include "emptyPolyPatch.H"
+#include "ffdMeasures.H"
+#include "ffdMotionSolver.H"
+#include "ffdPreview.H"
+#include "fvMesh.H"
+#include "OFstream.H"
+#include "OSspecific.H"
+
+#include <limits>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace morphMeshControls
+{
+
+static faceList facesOf(const fvMesh& mesh, const labelUList& patches)
+{
+    DynamicList<face> faces;
+    for (const label patchi : patches)
+    {
+        for (const face& f : mesh.boundaryMesh()[patchi])
+        {
+            faces.append(f);
+        }
+    }
+    return faceList(faces);
+}
+
+
+//- Those that are not there for the decomposition or for two dimensions
+static labelList shownPatches(const fvMesh& mesh)
+{
+    DynamicList<label> shown;
+    const polyBoundaryMesh& boundary = mesh.boundaryMesh();
+    for (label patchi = 0; patchi < boundary.nNonProcessor(); ++patchi)
+    {
+        if (!isA<emptyPolyPatch>(boundary[patchi]))
+        {
+            shown.append(patchi);
+        }
+    }
+    return labelList(shown);
+}
+
+
+static labelList selectedPatches(const fvMesh& mesh, const wordRes& names)
+{
+    labelHashSet selected;
+    const polyBoundaryMesh& boundary = mesh.boundaryMesh();
+    for (const label patchi : boundary.patchSet(names, false, true))
+    {
+        if (patchi < boundary.nNonProcessor())
+        {
+            selected.insert(patchi);
+        }
+    }
+    if (selected.empty())
+    {
+        wordList there(boundary.names());
+        there.setSize(boundary.nNonProcessor());
+        FatalErrorInFunction
+            << "Option -derivatives: no patch or patch group is called "
+            << flatOutput(names) << nl
+            << "    Patches: " << flatOutput(there) << nl
+            << exit(FatalError);
+    }
+    return selected.sortedToc();
+}
+
+
+//- The boxes of a solver that has some, with the values of this time
+static autoPtr<ffdBoxes> boxesOf(const fvMesh& mesh, const motionSolver& solver)
+{
+    const auto* ffd = isA<ffdMotionSolver>(solver);
+    if (!ffd)
+    {
+        return nullptr;
+    }
+    autoPtr<ffdBoxes> boxes(new ffdBoxes(ffd->coeffDict()));
+    boxes->setPoints(ffd->points0(), mesh.edges());
+    boxes->update(mesh.time().timeOutputValue());
+    return boxes;
+}
+
+} // End namespace morphMeshControls
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::morphMeshControls::write
+(
+    const fvMesh& mesh,
+    const PtrList<motionSolver>& solvers,
+    const fileName& folder
+)
+{
+    bool some = false;
+    for (const motionSolver& solver : solvers)
+    {
+        const auto* control = dynamic_cast<const controlGeometry*>(&solver);
+        if (!control)
+        {
+            continue;
+        }
+        some = true;
+        controlGeometry::write(control->shapes(), folder);
+
+        autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
+        if (boxes.valid())
+        {
+            const auto& ffd = refCast<const ffdMotionSolver>(solver);
+            ffdPreview::write
+            (
+                boxes(),
+                ffd.points0(),
+                facesOf(mesh, shownPatches(mesh)),
+                folder
+            );
+        }
+    }
+    if (!some)
+    {
+        WarningInFunction
+            << "The motion solver has no controls to show: option -lattice is"
+            << " for ffdMotionSolver and rbfMotionSolver" << endl;
+    }
+}
+
+
+void Foam::morphMeshControls::writeDerivatives
+(
+    const fvMesh& mesh,
+    const PtrList<motionSolver>& solvers,
+    const wordRes& patches,
+    const fileName& folder
+)
+{
+    const faceList faces(facesOf(mesh, selectedPatches(mesh, patches)));
+    bool some = false;
+    for (const motionSolver& solver : solvers)
+    {
+        autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
+        if (!boxes.valid())
+        {
+            continue;
+        }
+        some = true;
+        const auto& ffd = refCast<const ffdMotionSolver>(solver);
+        const ffdMeasures measures(boxes(), ffd.points0(), faces);
+        Info<< nl;
+        measures.writeMeasures(Info);
+        Info<< nl;
+        measures.writeDerivatives(Info);
+
+        mkDir(folder);
+        if (Pstream::master())
+        {
+            OFstream os(folder/"derivatives.dat");
+            os.precision(std::numeric_limits<scalar>::max_digits10);
+            measures.writeDerivatives(os);
+            OFstream shape(folder/"measures.dat");
+            shape.precision(std::numeric_limits<scalar>::max_digits10);
+            measures.writeMeasures(shape);
+        }
+        ffdPreview::writeDerivatives
+        (
+            boxes(), ffd.points0(), faces, folder/"derivatives"
+        );
+        Info<< nl << "Wrote derivatives.dat, measures.dat and derivatives.vtp"
+            << " to " << folder.c_str() << endl;
+    }
+    if (!some)
+    {
+        WarningInFunction
+            << "The motion solver has no parameters: option -derivatives is"
+            << " for ffdMotionSolver" << endl;
+    }
+}
+
+
+// ************************************************************************* //
