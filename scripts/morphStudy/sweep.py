@@ -155,6 +155,11 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
         raise StudyError(f"there is no strategy {strategy}; the strategies are"
                          f" {' '.join(study.strategies)}")
     check.check(study, quiet=True)
+    cores = cores or len(os.sched_getaffinity(0))
+    if not profile and study.cores > cores:
+        raise StudyError(f"a design takes {study.cores} cores (cores) and there"
+                         f" are {cores}. Give more (-cores), or let it take"
+                         " fewer")
     chosen = selected(study, only)
     with onlyOne(study):
         forget(study, strategy, chosen, redo)
@@ -165,7 +170,6 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
         snapshot = workflow / "study.yaml"
         shutil.copy(study.path, snapshot)
         jobs = plan(study, strategy, chosen, snapshot)
-        cores = cores or len(os.sched_getaffinity(0))
         (workflow / "plan.json").write_text(json.dumps(
             {"cores": study.cores, "jobs": jobs}, indent=1))
         if jobs:

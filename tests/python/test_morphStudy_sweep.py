@@ -165,6 +165,12 @@ def test_two_sweeps_at_once_are_refused(undisturbed):
             sweep.run(undisturbed[0])
 
 
+def test_a_design_may_not_take_more_cores_than_there_are(tmp_path):
+    study = started(tmp_path, ("baseline:\n  steps", "cores: 4\nbaseline:\n  steps"))
+    with pytest.raises(StudyError, match="takes 4 cores.* there are 2"):
+        sweep.run(study, cores=2)
+
+
 def test_a_profile_is_passed_on(tmp_path, capsys):
     study = started(tmp_path)
     assert sweep.run(study, "remesh", profile=str(tmp_path/"slurm")) == 1
