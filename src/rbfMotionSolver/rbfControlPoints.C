@@ -330,6 +330,19 @@ bool Foam::rbfControlPoints::surfacesMove() const
 }
 
 
+bool Foam::rbfControlPoints::surfacesStay() const
+{
+    for (const controlPointGroup& group : groups_)
+    {
+        if (group.slides() && group.hasTarget())
+        {
+            return false;
+        }
+    }
+    return !surfacesMove();
+}
+
+
 bool Foam::rbfControlPoints::update(const bool anew)
 {
     const bool changed = sliding_->update(anew);
@@ -359,23 +372,6 @@ bool Foam::rbfControlPoints::update(const bool anew)
     follow_ = returnReduce(follow_, orOp<bool>());
     collectCandidates(listedPoints_.displacements());
     return changed;
-}
-
-
-void Foam::rbfControlPoints::imposePrescribed
-(
-    vectorField& displacement,
-    const scalar fraction
-) const
-{
-    forAll(controlled_, i)
-    {
-        if (!conditions_[i].slides())
-        {
-            displacement[controlled_[i]] =
-                fraction*toFoam(conditions_[i].value);
-        }
-    }
 }
 
 
@@ -432,22 +428,25 @@ void Foam::rbfControlPoints::renewDirections(const morph::Vectors& s)
 void Foam::rbfControlPoints::impose
 (
     vectorField& displacement,
-    const bool slidingToo
+    const bool slidingToo,
+    const scalar fraction
 ) const
 {
+    // Where surfaces are half-way is not known
+    const bool slide = slidingToo && (fraction >= 1 || surfacesStay());
     forAll(controlled_, i)
     {
         vector& d = displacement[controlled_[i]];
         const morph::ControlPoint& p = conditions_[i];
         if (!p.slides())
         {
-            d = toFoam(p.value);
+            d = fraction*toFoam(p.value);
         }
-        else if (slidingToo && sliding_->follows(i))
+        else if (slide && sliding_->follows(i))
         {
             d = sliding_->onto(i, d);
         }
-        else if (slidingToo)
+        else if (slide)
         {
             const morph::Vector3 s = toEigen(d);
             d += toFoam(p.C()*p.residual(s).head(p.k));

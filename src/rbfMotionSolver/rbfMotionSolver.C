@@ -68,6 +68,16 @@ static const scalar radiusGrowth = 1.5;
 // Most steps that 'subSteps auto' takes
 static const label maxSubSteps = 32;
 
+
+static void noteMoved(const polyMesh& mesh, const scalar fraction)
+{
+    motionRecord* record = motionRecord::of(mesh);
+    if (record)
+    {
+        record->set("moved", fraction);
+    }
+}
+
 } // End namespace Foam
 
 
@@ -371,7 +381,7 @@ void Foam::rbfMotionSolver::select(const bool first)
 }
 
 
-Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
+Foam::vectorField Foam::rbfMotionSolver::propagate() const
 {
     morph::Vectors s = selection_->interpolant()(*cloud_);
     if (settings_.surfaceCorrection)
@@ -393,8 +403,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::propagate() const
     }
     cyclicPoints::match(mesh(), inPlane);
     controlPoints_->impose(inPlane, settings_.exactSliding);
-
-    return expand(inPlane);
+    return inPlane;
 }
 
 
@@ -427,17 +436,57 @@ Foam::string Foam::rbfMotionSolver::remedy() const
 }
 
 
-Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inOneStep(const bool first)
+Foam::vectorField Foam::rbfMotionSolver::inOneStep(const bool first)
 {
     select(first);
     const clockTime timer;
-    tmp<vectorField> displacement(propagate());
+    vectorField inPlane(propagate());
     if (debug)
     {
         Info<< type() << ": propagation " << timer.elapsedTime() << " s"
             << endl;
     }
+    return inPlane;
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::limited
+(
+    const vectorField& inPlane
+) const
+{
+    tmp<vectorField> displacement(expand(inPlane));
+    scalar made =
+        motionLimiter(mesh(), coeffDict(), settings_.onInvalidMesh).apply
+        (
+            points0(), displacement.ref(), remedy()
+        );
+    if (made == 1 || !controlPoints_->follow())
+    {
+        return displacement;
+    }
+
+    // A part of the way along its chord is off a curved surface
+    for (label i = 0; i < maxSubSteps; ++i)
+    {
+        vectorField part(made*inPlane);
+        controlPoints_->impose(part, settings_.exactSliding, made);
+        tmp<vectorField> onSurface(expand(part));
+        if (isValid(onSurface()))
+        {
+            noteMoved(mesh(), made);
+            return onSurface;
+        }
+        made *= 0.9;
+    }
     return displacement;
+}
+
+
+bool Foam::rbfMotionSolver::isValid(const vectorField& displacement) const
+{
+    return
+        invalidMotion(mesh(), points0(), points0() + displacement).empty();
 }
 
 
@@ -450,11 +499,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
     const auto constrain = [&](vectorField& inPlane, const scalar fraction)
     {
         cyclicPoints::match(mesh(), inPlane);
-        controlPoints_->imposePrescribed(inPlane, fraction);
-        if (fraction >= 1)
-        {
-            controlPoints_->impose(inPlane, settings_.exactSliding);
-        }
+        controlPoints_->impose(inPlane, settings_.exactSliding, fraction);
     };
     const morph::SubStepSettings settings
     {
@@ -520,18 +565,13 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::moved(const bool first)
         return inSubSteps(settings_.subSteps, true);
     }
 
-    vectorField displacement(inOneStep(first));
+    const vectorField inPlane(inOneStep(first));
     if (settings_.subSteps == 1)
     {
-        motionLimiter(mesh(), coeffDict(), settings_.onInvalidMesh).apply
-        (
-            points0(), displacement, remedy()
-        );
+        return limited(inPlane);
     }
-    else if
-    (
-        !invalidMotion(mesh(), points0(), points0() + displacement).empty()
-    )
+    tmp<vectorField> displacement(expand(inPlane));
+    if (!isValid(displacement()))
     {
         for (label n = 2; n < maxSubSteps; n *= 2)
         {
@@ -543,7 +583,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::moved(const bool first)
         }
         return inSubSteps(maxSubSteps, true);
     }
-    return tmp<vectorField>::New(displacement);
+    return displacement;
 }
 
 

@@ -132,6 +132,7 @@ bool Foam::subSteppedMotion::run
         if (part < 1)
         {
             moved = reached_ + part*(moved - reached_);
+            constrain_(moved, fraction);
         }
 
         if (check)

@@ -13,6 +13,7 @@ import pytest
 
 from boxCase import fixed
 from rbfCase import groups, points_at, rbf_case, reference
+from slidingCases import annulus
 
 FAILED = "\nFailed: the moved mesh would be invalid\n"
 LIMIT = "onInvalidMesh limit;\n"
@@ -315,3 +316,37 @@ def test_the_histogram_counts_every_face_once(tmp_path):
     parallel.run("morphMesh", "-time", 1, ranks=2)
     name = "postProcessing/morphMesh/1/histogram.dat"
     assert (parallel.path/name).read_text() == (serial.path/name).read_text()
+
+
+# --- curved surfaces
+
+
+def aside(path, distance, extra):
+    """An annulus of radii 0.5 and 1 whose hub moves to the side."""
+    return annulus(path, "supportRadius 2; greedy { tolerance 1e-3; }"
+                   + extra + groups(
+                       hub="type moving; patches (hub); displacement { type"
+                           f" uniform; value ({distance} 0 0); }}",
+                       casing="type sliding; patches (casing); surface { type"
+                              " searchableCylinder; point1 (0 0 0);"
+                              " point2 (0 0 1); radius 1; }",
+                       ends="type sliding; patches (zMin zMax);"))
+
+
+@pytest.mark.parametrize("distance, extra", [
+    (0.7, "onInvalidMesh limit;"),
+    (0.7, "onInvalidMesh limit; subSteps 4;"),
+    (0.4, "subSteps 4;")])
+def test_points_stay_on_a_curved_surface_on_a_part_of_their_way(
+        tmp_path, distance, extra):
+    case = aside(tmp_path, distance, extra)
+    output = case.run("morphMesh", "-time", 1)
+    assert ("limited to" in output) == (distance > 0.5)
+    x, y = reference(case), points_at(case, "1")
+    casing = np.hypot(x[:, 0], x[:, 1]) > 1 - 1e-9
+    hub = np.hypot(x[:, 0], x[:, 1]) < 0.5 + 1e-9
+    along = np.linalg.norm((y - x)[casing], axis=1).max()
+    assert along > 0.05
+    assert np.abs(np.hypot(y[casing, 0], y[casing, 1]) - 1).max() < 1e-13
+    made = float(motion(case, folder="morphMesh")["moved"])*distance
+    np.testing.assert_allclose(y[hub], x[hub] + [made, 0, 0], atol=1e-12)
