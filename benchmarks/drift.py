@@ -1,0 +1,93 @@
+"""What many periods of a motion leave behind: the mesh after a hundred periods
+beside that after one, and the memory of a thousand steps.
+
+    drift.py FILE.md        (with the environment of etc/bashrc)
+
+tutorials/oscillatingCylinder on its coarse mesh, ten steps to a period, each
+motion solver for itself (benchmarks/moveSteps). velocityLaplacian integrates
+the velocity of the cylinder in time, which the others need not.
+"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+from timeSteps import LINEAR_SOLVER, MOTIONS, header, make_case, replace, run
+
+PERIODS = 100
+STEPS = 10
+
+VELOCITY = """
+boundaryField
+{
+    cylinder
+    {
+        type            oscillatingVelocity;
+        amplitude       (0 0.2617993877991494 0);
+        omega           1.0471975511965976;
+        value           uniform (0 0 0);
+    }
+    farField
+    {
+        type            fixedValue;
+        value           uniform (0 0 0);
+    }
+    sides
+    {
+        type            symmetry;
+    }
+}
+"""
+
+DRIFTING = {name: MOTIONS[name] for name in (
+    "rbfMotionSolver", "displacementLaplacian")}
+# The condition moves with sin, as the displacement does: so does its integral,
+# a quarter of a period later
+DRIFTING["velocityLaplacian"] = ("fvMotionSolvers", """
+velocityLaplacianCoeffs { diffusivity quadratic inverseDistance (cylinder); }
+""")
+
+
+def measure(path, name):
+    library, coeffs = DRIFTING[name]
+    (path/"constant/dynamicMeshDict").write_text(
+        header("dynamicMeshDict") + "dynamicFvMesh dynamicMotionSolverFvMesh;\n"
+        f"motionSolverLibs ({library});\nmotionSolver {name};\n{coeffs}")
+    output = run(path, "moveSteps", "-period", str(STEPS))
+    memory = [int(kB) for kB in re.findall(r"memory (\d+)", output)]
+    apart = [float(d) for d in re.findall(
+        r"^period \d+ difference (\S+)", output, re.MULTILINE)]
+    return apart[-1], max(apart), memory
+
+
+def main(file):
+    lines = [f"| solver | after period {PERIODS} [diameters] | largest of all "
+             "periods | memory after 100 steps [kB] | after "
+             f"{PERIODS*STEPS} |", "|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)/"case"
+        make_case(path, 16, 44, 4)
+        replace(path/"system/controlDict",
+                (r"endTime +\S+;", f"endTime {6*PERIODS};"),
+                (r"writeInterval +1.5", "writeInterval 10000"))
+        replace(path/"system/resolution", (r"deltaT +\S+;", "deltaT 0.6;"))
+        replace(path/"system/fvSolution",
+                ("cellDisplacement", '"cell(Displacement|MotionU)"'))
+        text = (path/"0/pointDisplacement").read_text()
+        text = text[:text.index("boundaryField")]
+        (path/"0/pointMotionU").write_text(
+            text.replace("pointDisplacement", "pointMotionU").replace(
+                "[0 1 0 0", "[0 1 -1 0") + VELOCITY)
+        for name in DRIFTING:
+            last, largest, memory = measure(path, name)
+            lines.append(f"| {name} | {last:.2g} | {largest:.2g} | "
+                         f"{memory[99]} | {memory[-1]} |")
+            print(lines[-1], flush=True)
+    pathlib.Path(file).write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(sys.argv[1])
