@@ -52,10 +52,14 @@ def picture(
     lines=True,
     width=1200,
     component=None,
+    towards=(0, 0, -1),
+    up=(0, 1, 0),
 ):
     """Writes one picture: the mesh's lines and, if named, a field's colours.
 
     box     (xMin, xMax, yMin, yMax) [m]: what the picture shows
+    towards, up  unit vectors: where one looks and what is up there, if that is
+            not along -z; box is then along the picture's own axes
     range   (low, high) of the colours; default: the field's own in the box
     component  of a vector: "X", "Y" or "Z"; default: its magnitude
     """
@@ -84,10 +88,14 @@ def picture(
             mesh, field, box), component)
 
     view.CameraParallelProjection = 1
-    centre = [(xMin + xMax) / 2, (yMin + yMax) / 2]
-    view.CameraFocalPoint = centre + [0]
-    view.CameraPosition = centre + [10 * (xMax - xMin)]
-    view.CameraViewUp = [0, 1, 0]
+    across = [towards[i - 2] * up[i - 1] - towards[i - 1] * up[i - 2]
+              for i in (0, 1, 2)]
+    centre = [a * (xMin + xMax) / 2 + b * (yMin + yMax) / 2
+              for a, b in zip(across, up)]
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [c - 10 * (xMax - xMin) * t
+                           for c, t in zip(centre, towards)]
+    view.CameraViewUp = list(up)
     view.CameraParallelScale = (yMax - yMin) / 2
 
     Path(output).resolve().parent.mkdir(parents=True, exist_ok=True)
