@@ -49,19 +49,6 @@ static bool before
 }
 
 
-// The direction of a vector, rounded to well above round-off, so that the order
-// of a summation leaves no trace and planes along the axes have exact normals
-static vector rounded(const vector& total)
-{
-    vector normal = total/max(mag(total), VSMALL);
-    for (direction d = 0; d < vector::nComponents; ++d)
-    {
-        normal[d] = std::ldexp(std::round(std::ldexp(normal[d], 40)), -40);
-    }
-    return normal;
-}
-
-
 // Sine of the largest angle between faces and a plane
 static scalar tilt(const vectorField& areas, const vector& normal)
 {
@@ -78,6 +65,33 @@ static scalar tilt(const vectorField& areas, const vector& normal)
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::vector Foam::surfaceNormals::rounded(const vector& total)
+{
+    vector normal = total/max(mag(total), VSMALL);
+    for (scalar& component : normal)
+    {
+        component = std::ldexp(std::round(std::ldexp(component, 40)), -40);
+    }
+    return normal;
+}
+
+
+Foam::vector Foam::surfaceNormals::withoutLastBits(vector v)
+{
+    // The factor keeps lengths off the powers of two, where the number of bits
+    // jumps
+    const int exponent = 46 - std::ilogb(max(1.3*mag(v), VSMALL));
+    for (scalar& component : v)
+    {
+        component = std::ldexp
+        (
+            std::round(std::ldexp(component, exponent)), -exponent
+        );
+    }
+    return v;
+}
+
 
 Foam::surfaceNormals::plane Foam::surfaceNormals::planeOf
 (

@@ -36,7 +36,8 @@ Vectors subStep
 
     GreedySelection selection
     (
-        settings.kernel, settings.polynomial, settings.selection
+        settings.kernel, settings.polynomial, settings.selection,
+        settings.images
     );
     if (renewal)
     {

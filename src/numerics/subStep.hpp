@@ -19,6 +19,8 @@ struct SubStepSettings
     // Largest radius of the surface correction [m], 0 for none
     // (exactSurface.hpp)
     double correctionRadius;
+
+    ImageGroup images = ImageGroup();
 };
 
 

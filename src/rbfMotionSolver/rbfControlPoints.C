@@ -41,6 +41,10 @@ static const scalar turnedCosine = 0.5;
 // its square is still a number
 static const vector unknown = vector::uniform(GREAT);
 
+// In units of the largest displacement: what those of coupled points, and those
+// in a plane of symmetry, may lack
+static const scalar samePeriod = 1e-6;
+
 } // End namespace Foam
 
 
@@ -53,6 +57,7 @@ Foam::rbfControlPoints::rbfControlPoints
     const pointField& points0,
     const PtrList<controlPointGroup>& groups,
     const planarReduction& plane,
+    motionImages& images,
     const scalar featureAngle
 )
 :
@@ -61,21 +66,17 @@ Foam::rbfControlPoints::rbfControlPoints
     points0_(points0),
     groups_(groups),
     plane_(plane),
+    images_(images),
     listedPoints_(points0, groups, plane)
 {
     assign();
     own();
 
-    boolList onAxis(controlled_.size());
-    forAll(onAxis, i)
-    {
-        onAxis[i] = group_[i] == groups_.size();
-    }
     sliding_.reset
     (
         new slidingPoints
         (
-            mesh, points0, groups, plane, featureAngle, controlled_, onAxis
+            mesh, points0, groups, plane, featureAngle, controlled_, onAxis_
         )
     );
 }
@@ -117,6 +118,11 @@ void Foam::rbfControlPoints::assign()
         }
     }
     controlled_.transfer(labels);
+    onAxis_.setSize(controlled_.size());
+    forAll(controlled_, i)
+    {
+        onAxis_[i] = plane_.onAxis(points0_[controlled_[i]], axisTolerance);
+    }
     group_ = UIndirectList<label>(group, controlled_);
     listed_ = UIndirectList<label>(listed, controlled_);
 
@@ -186,6 +192,105 @@ void Foam::rbfControlPoints::own()
     {
         owned_[i] = !slave.test(controlled_[i]);
     }
+
+    firstCopy_ = boolList(controlled_.size(), true);
+    const boolList first(images_.coupled().first());
+    const labelList places(coupledPlaces());
+    forAll(places, i)
+    {
+        if (places[i] >= 0)
+        {
+            firstCopy_[places[i]] = first[i];
+        }
+    }
+}
+
+
+Foam::labelList Foam::rbfControlPoints::coupledPlaces() const
+{
+    Map<label> placeOf(2*controlled_.size());
+    forAll(controlled_, i)
+    {
+        placeOf.insert(controlled_[i], i);
+    }
+    labelList places(images_.coupled().points());
+    for (label& place : places)
+    {
+        place = placeOf.lookup(place, -1);
+    }
+    return places;
+}
+
+
+void Foam::rbfControlPoints::matchCopies
+(
+    const vectorField& told,
+    vectorField& d
+) const
+{
+    const cyclicCopies& coupled = images_.coupled();
+    if (coupled.empty())
+    {
+        return;
+    }
+
+    scalar largest = 0;
+    for (const vector& t : told)
+    {
+        largest = max(largest, t == unknown ? 0 : mag(t));
+    }
+    reduce(largest, maxOp<scalar>());
+
+    const labelList places(coupledPlaces());
+    vectorField known(places.size(), unknown);
+    forAll(places, i)
+    {
+        if (places[i] >= 0)
+        {
+            known[i] = told[places[i]];
+        }
+    }
+    const List<vectorField> copies(coupled.values(known, unknown));
+
+    OStringStream message;
+    forAll(places, i)
+    {
+        const label place = places[i];
+        if (place < 0)
+        {
+            continue;
+        }
+        const vector* taken = nullptr;
+        for (const vector& value : copies[i])
+        {
+            if (value == unknown)
+            {
+                continue;
+            }
+            if (!taken)
+            {
+                taken = &value;
+                d[place] = value;
+            }
+            else if
+            (
+                mag(value - *taken) > samePeriod*largest
+             && !groups_[group_[place]].slides()
+             && message.str().empty()
+            )
+            {
+                message
+                    << "Periodic sides are told to move differently: the point "
+                    << points0_[controlled_[place]] << " by " << *taken
+                    << " from the one side, by " << value << " from the other"
+                    << " (as seen here)" << nl
+                    << "    Coupled patches would not match any more. Give"
+                    << " both sides one displacement, turned with them where"
+                    << " the period is a rotation";
+            }
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
 }
 
 
@@ -215,13 +320,19 @@ Foam::vectorField Foam::rbfControlPoints::displacements() const
         }
     }
 
+    const vectorField told(d);
     syncTools::syncPointList
     (
         mesh_, controlled_, d, minMagSqrEqOp<vector>(), unknown
     );
+    matchCopies(told, d);
     forAll(d, i)
     {
         d[i] = plane_.reduce(points0_[controlled_[i]], d[i]);
+        if (onAxis_[i])
+        {
+            d[i] -= (d[i] & plane_.radial())*plane_.radial();
+        }
     }
     return d;
 }
@@ -258,7 +369,7 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
     DynamicList<label> places;
     forAll(controlled_, i)
     {
-        if (owned_[i])
+        if (owned_[i] && (firstCopy_[i] || !images_.periodic()))
         {
             all.push_back(conditions_[i]);
             places.append(i);
@@ -312,10 +423,75 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
         candidatePoints_[j] = i < 0 ? -1 : controlled_[i];
         places_[j] = i;
     }
+    whole_ = candidates_;
+    if (images_.active())
+    {
+        leaveToImages();
+    }
+}
+
+
+void Foam::rbfControlPoints::leaveToImages()
+{
+    const scalar largest = largestValue();
+    OStringStream message;
+    morph::ControlPoints left, whole;
+    DynamicList<label> labels, places;
+    forAll(candidatePoints_, j)
+    {
+        const morph::ControlPoint& p = candidates_[j];
+        scalar contradiction = 0;
+        const morph::ControlPoint rest = images_.restricted(p, contradiction);
+        if (contradiction > samePeriod*largest && message.str().empty())
+        {
+            message
+                << "what is prescribed at " << toFoam(p.position) << ", "
+                << toFoam(p.C()*p.g()) << ", leaves the plane of symmetry or"
+                << " axis of rotation there by " << contradiction;
+        }
+        if (rest.k > 0)
+        {
+            left.push_back(rest);
+            whole.push_back(p);
+            labels.append(candidatePoints_[j]);
+            places.append(places_[j]);
+        }
+    }
+    images_.renounceIf(message.str());
+    if (images_.active())
+    {
+        candidates_.swap(left);
+        whole_.swap(whole);
+        candidatePoints_.transfer(labels);
+        places_.transfer(places);
+    }
+}
+
+
+morph::ControlPoint Foam::rbfControlPoints::restricted
+(
+    const morph::ControlPoint& p
+) const
+{
+    scalar contradiction = 0;
+    return
+        images_.active() ? images_.restricted(p, contradiction)
+      : p;
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::rbfControlPoints::largestValue() const
+{
+    scalar largest = 0;
+    for (const morph::ControlPoint& p : candidates_)
+    {
+        largest = max(largest, p.g().norm());
+    }
+    return returnReduce(largest, maxOp<scalar>());
+}
+
 
 bool Foam::rbfControlPoints::surfacesMove() const
 {
@@ -370,7 +546,15 @@ bool Foam::rbfControlPoints::update(const bool anew)
         }
     }
     follow_ = returnReduce(follow_, orOp<bool>());
-    collectCandidates(listedPoints_.displacements());
+
+    const bool withImages = images_.active();
+    const vectorField freeValues(listedPoints_.displacements());
+    collectCandidates(freeValues);
+    if (withImages && !images_.active())
+    {
+        collectCandidates(freeValues);
+        return true;
+    }
     return changed;
 }
 
@@ -384,7 +568,7 @@ void Foam::rbfControlPoints::renew
     leastCosine_ = 1;
     forAll(places_, j)
     {
-        morph::ControlPoint& p = candidates[j];
+        morph::ControlPoint& p = whole_[j];
         if (p.slides() && sliding_->follows(places_[j]))
         {
             const morph::Vector3 here = s.row(j).transpose();
@@ -392,6 +576,7 @@ void Foam::rbfControlPoints::renew
             (
                 p, here, sliding_->planes(places_[j], toFoam(here))
             );
+            candidates[j].value = restricted(p).value;
             leastCosine_ = min(leastCosine_, cosine);
         }
     }
@@ -409,7 +594,7 @@ void Foam::rbfControlPoints::renewDirections(const morph::Vectors& s)
     forAll(places_, j)
     {
         const label i = places_[j];
-        morph::ControlPoint& p = candidates_[j];
+        morph::ControlPoint& p = whole_[j];
         if (!p.slides() || !sliding_->follows(i))
         {
             continue;
@@ -421,6 +606,7 @@ void Foam::rbfControlPoints::renewDirections(const morph::Vectors& s)
         (
             points0_[controlled_[i]], true, sliding_->normals(i), start_[i]
         );
+        candidates_[j] = restricted(p);
     }
 }
 

@@ -23,6 +23,17 @@ License
 #include "FlatOutput.H"
 #include "unitConversion.H"
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::rbfMotionSettings::imagePolicy>
+Foam::rbfMotionSettings::imagePolicyNames
+({
+    { imagePolicy::automatic, "auto" },
+    { imagePolicy::yes, "yes" },
+    { imagePolicy::no, "no" }
+});
+
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -233,6 +244,10 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
         dict.found("supportRadiusFactor") ? 0 : 0.5;
 
     settings.selection = readSelection(dict);
+    settings.images = dictionaryChecks::getChoice
+    (
+        dict, "images", imagePolicyNames, imagePolicy::automatic
+    );
     settings.surfaceCorrection =
         dict.getOrDefault<bool>("surfaceCorrection", false);
 

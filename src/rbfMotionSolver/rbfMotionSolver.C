@@ -20,7 +20,6 @@ License
 #include "rbfMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
 #include "clockTime.H"
-#include "cyclicPoints.H"
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
@@ -154,8 +153,9 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
             coeffDict(),
             {
                 "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
-                "controlPoints", "greedy", "selection", "surfaceCorrection",
-                "featureAngle", "exactSliding", "onInvalidMesh", "subSteps"
+                "controlPoints", "greedy", "selection", "images",
+                "surfaceCorrection", "featureAngle", "exactSliding",
+                "onInvalidMesh", "subSteps"
             }
         );
     }
@@ -189,6 +189,13 @@ void Foam::rbfMotionSolver::makeGroups()
 void Foam::rbfMotionSolver::makeGeometry()
 {
     plane_.reset(new planarReduction(mesh(), points0()));
+    images_.reset
+    (
+        new motionImages
+        (
+            mesh(), coeffDict(), points0(), plane_(), groups_(), settings_
+        )
+    );
     controlPoints_.reset
     (
         new rbfControlPoints
@@ -198,6 +205,7 @@ void Foam::rbfMotionSolver::makeGeometry()
             points0(),
             groups_(),
             plane_(),
+            images_(),
             settings_.featureAngle
         )
     );
@@ -311,7 +319,8 @@ void Foam::rbfMotionSolver::makeSelection(morph::Communicator& communicator)
         (
             morph::Kernel(settings_.kernel, supportRadius_),
             settings_.polynomial,
-            settings_.selection
+            settings_.selection,
+            images_->inReach()
         )
     );
     if (!restored_.empty())
@@ -401,7 +410,7 @@ Foam::vectorField Foam::rbfMotionSolver::propagate() const
     {
         inPlane[evaluated_[i]] = toFoam(s.row(i).transpose());
     }
-    cyclicPoints::match(mesh(), inPlane);
+    matchCyclics(inPlane);
     controlPoints_->impose(inPlane, settings_.exactSliding);
     return inPlane;
 }
@@ -422,6 +431,27 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::expand
         );
     }
     return displacement;
+}
+
+
+void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
+{
+    const cyclicCopies& coupled = images_->coupled();
+    if (images_->periodic() || coupled.empty())
+    {
+        return;
+    }
+    const List<vectorField> copies
+    (
+        coupled.values
+        (
+            vectorField(displacement, coupled.points()), vector::uniform(GREAT)
+        )
+    );
+    forAll(copies, i)
+    {
+        displacement[coupled.points()[i]] = average(copies[i]);
+    }
 }
 
 
@@ -498,7 +528,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
 {
     const auto constrain = [&](vectorField& inPlane, const scalar fraction)
     {
-        cyclicPoints::match(mesh(), inPlane);
+        matchCyclics(inPlane);
         controlPoints_->impose(inPlane, settings_.exactSliding, fraction);
     };
     const morph::SubStepSettings settings
@@ -506,7 +536,8 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
         morph::Kernel(settings_.kernel, supportRadius_),
         settings_.polynomial,
         settings_.selection,
-        settings_.surfaceCorrection ? correctionReach*supportRadius_ : 0
+        settings_.surfaceCorrection ? correctionReach*supportRadius_ : 0,
+        images_->inReach(controlPoints_->largestValue())
     };
     subSteppedMotion motion
     (
@@ -613,6 +644,10 @@ void Foam::rbfMotionSolver::solve()
     const bool anew = state_.wasWritten() || first;
     const bool newDirections = controlPoints_->update(anew);
     const bool newRadius = updateSupportRadius();
+    if ((first || newRadius) && !images_->reach(supportRadius_))
+    {
+        controlPoints_->update(anew);
+    }
     if (anew || newDirections || newRadius)
     {
         dropSelection(first, newRadius);
@@ -677,6 +712,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     state_.clearPositions();
     cloud_.reset();
     controlPoints_.clear();
+    images_.clear();
     plane_.clear();
     report_.clear();
     makeGroups();

@@ -18,6 +18,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "slidingPoints.H"
+#include "cyclicPolyPatch.H"
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
@@ -351,6 +352,15 @@ Foam::slidingPoints::presentNormals() const
         place.insert(controlled_[i], i);
     }
 
+    // A rotational cyclic leaves round-off that depends on who asks
+    bool turned = false;
+    for (const polyPatch& patch : mesh_.boundaryMesh())
+    {
+        const auto* cyclic = isA<cyclicPolyPatch>(patch);
+        turned = turned || (cyclic && !cyclic->parallel());
+    }
+    turned = returnReduce(turned, orOp<bool>());
+
     // Two lists for one communication each: normals are turned at cyclics
     List<List<vector>> around(controlled_.size());
     List<labelList> sheetsAround(controlled_.size());
@@ -371,7 +381,10 @@ Foam::slidingPoints::presentNormals() const
             const label k = f.find(faces_->vertices()[pointi]);
             const vector n =
                 plane_.reduce(points0_[pointi], normalOf(f, x, k));
-            around[found.val()].append(s.planar ? mag(n)*s.normal : n);
+            around[found.val()].append
+            (
+                s.planar ? mag(n)*s.normal : n
+            );
             sheetsAround[found.val()].append(sheeti);
         }
     }
@@ -396,17 +409,25 @@ Foam::slidingPoints::presentNormals() const
     List<List<surfaceNormals::ofSurface>> normals(controlled_.size());
     forAll(normals, i)
     {
-        if (onAxis_[i])
-        {
-            normals[i].append({plane_.radial(), -1});
-            continue;
-        }
         List<surfaceNormals::ofSurface> all(around[i].size());
         forAll(all, j)
         {
-            all[j] = {around[i][j], sheetsAround[i][j]};
+            const vector& n = around[i][j];
+            all[j] =
+            {
+                turned ? surfaceNormals::withoutLastBits(n) : n,
+                sheetsAround[i][j]
+            };
         }
         normals[i] = surfaceNormals::distinct(all, featureAngle_);
+        for (surfaceNormals::ofSurface& n : normals[i])
+        {
+            n.normal = turned ? surfaceNormals::rounded(n.normal) : n.normal;
+        }
+        if (onAxis_[i])
+        {
+            normals[i].append({plane_.radial(), -1});
+        }
     }
     return normals;
 }
