@@ -11,10 +11,20 @@ import time
 PR_SET_PDEATHSIG = 1
 
 
-def dieWithParent():
-    """Be killed when the process that started this one ends. Linux."""
+def dieWithParent(isParent):
+    """Be killed when the process that started this one ends (Linux), or at once
+    where that has ended already: isParent(pid) says whether this parent is the
+    one."""
     ctypes.CDLL(None, use_errno=True).prctl(
         PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+    if not isParent(os.getppid()):
+        os._exit(1)
+
+
+def startedHere():
+    """For preexec_fn: die with this process."""
+    here = os.getpid()
+    return lambda: dieWithParent(lambda pid: pid == here)
 
 
 def guard(group):
@@ -47,7 +57,7 @@ def run(command, folder, log, timeout=None, environment=None):
         process = subprocess.Popen(
             ["bash", "-c", command], cwd=folder, stdout=output,
             stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-            start_new_session=True,
+            start_new_session=True, preexec_fn=startedHere(),
             env={**os.environ, "PWD": str(folder), **(environment or {})})
         pid, pipe = guard(process.pid)
         try:

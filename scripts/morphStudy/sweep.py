@@ -190,7 +190,7 @@ def engine(study, workflow, cores, profile, progress):
     with (study.folder / "snakemake.log").open("w") as log:
         engine_ = subprocess.Popen(
             command, stdout=log, stderr=subprocess.STDOUT,
-            stdin=subprocess.DEVNULL, preexec_fn=process.dieWithParent)
+            stdin=subprocess.DEVNULL, preexec_fn=process.startedHere())
         try:
             while engine_.poll() is None:
                 time.sleep(0.2)

@@ -212,9 +212,17 @@ def why(log, status):
     return f"exit status {status}{said}"
 
 
+def isEngine(pid):
+    """Whether a process is Snakemake, which starts the workers."""
+    with contextlib.suppress(OSError), open(
+            f"/proc/{pid}/cmdline", "rb") as file:
+        return b"snakemake" in file.read()
+    return False
+
+
 def main(arguments):
     path, snapshot, strategy, number = arguments
-    process.dieWithParent()
+    process.dieWithParent(isEngine)
     study = Study(path, snapshot)
     number = int(number)
     lock = study.folder / "outcomes" / f".lock.{strategy}.{number}"

@@ -7,6 +7,7 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
@@ -144,6 +145,15 @@ def test_killed_in_the_middle_it_goes_on_and_repeats_nothing(
     assert table(study, "morph") == table(undisturbed[0], "morph")
     assert all(runs(study, name) == 1 for name in ["baseline", *done])
     assert all(runs(study, name) == 2 for name in halfMade if runs(study, name))
+
+
+def test_a_worker_whose_engine_is_gone_does_nothing(tmp_path):
+    study = started(tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-m", "morphStudy.worker", study.path, study.path,
+         "remesh", "1"], env={**os.environ, "PYTHONPATH": ROOT/"scripts"})
+    assert done.returncode == 1
+    assert not study.folder.joinpath("remesh").exists()
 
 
 def test_interrupted_it_stops_at_once_and_says_so(undisturbed):
