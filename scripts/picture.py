@@ -2,7 +2,7 @@
 
     withDisplay $(python3With paraview.simple) scripts/picture.py CASE OUTPUT.png
         [-time T] [-box X0 X1 Y0 Y1] [-field NAME] [-range LOW HIGH] [-noLines]
-        [-width PIXELS]
+        [-width PIXELS] [-regions NAME...]
 
 or picture(...) from a script run so; not by pvbatch, which takes options for
 its own. The view is along -z on the
@@ -18,8 +18,9 @@ from paraview import simple as pv
 pv._DisableFirstRenderCameraReset()
 
 
-def openCase(case, time=None):
-    """The internal mesh and its cell fields at that time (default: last).
+def openCase(case, time=None, regions=()):
+    """The internal mesh and its cell fields at that time (default: last), or
+    the meshes of regions.
 
     ParaView's reader passes over time 0, which a case without other times
     shows all the same."""
@@ -29,7 +30,9 @@ def openCase(case, time=None):
     marker = case / (case.name + ".foam")
     marker.touch()
     reader = pv.OpenFOAMReader(
-        FileName=str(marker), MeshRegions=["internalMesh"]
+        FileName=str(marker),
+        MeshRegions=[f"/{region}/internalMesh" for region in regions]
+        or ["internalMesh"],
     )
     reader.UpdatePipelineInformation()
     times = list(reader.TimestepValues)
@@ -54,6 +57,7 @@ def picture(
     component=None,
     towards=(0, 0, -1),
     up=(0, 1, 0),
+    regions=(),
 ):
     """Writes one picture: the mesh's lines and, if named, a field's colours.
 
@@ -62,9 +66,10 @@ def picture(
             not along -z; box is then along the picture's own axes
     range   (low, high) of the colours; default: the field's own in the box
     component  of a vector: "X", "Y" or "Z"; default: its magnitude
+    regions of a case that has several; default: its mesh without a name
     """
     view = pv.CreateView("RenderView")
-    mesh = openCase(case, time)
+    mesh = openCase(case, time, regions)
     if box is None:
         box = mesh.GetDataInformation().GetBounds()[:4]
     xMin, xMax, yMin, yMax = box
@@ -143,6 +148,7 @@ def main():
     parser.add_argument("-range", type=float, nargs=2)
     parser.add_argument("-noLines", dest="lines", action="store_false")
     parser.add_argument("-width", type=int, default=1200)
+    parser.add_argument("-regions", nargs="+", default=())
     arguments = vars(parser.parse_args())
     picture(**arguments)
 
