@@ -58,6 +58,7 @@ def picture(
     towards=(0, 0, -1),
     up=(0, 1, 0),
     regions=(),
+    plane=None,
 ):
     """Writes one picture: the mesh's lines and, if named, a field's colours.
 
@@ -67,9 +68,12 @@ def picture(
     range   (low, high) of the colours; default: the field's own in the box
     component  of a vector: "X", "Y" or "Z"; default: its magnitude
     regions of a case that has several; default: its mesh without a name
+    plane   (origin, normal): a section through the mesh instead of its surface
     """
     view = pv.CreateView("RenderView")
     mesh = openCase(case, time, regions)
+    if plane is not None:
+        mesh = section(mesh, *plane)
     if box is None:
         box = mesh.GetDataInformation().GetBounds()[:4]
     xMin, xMax, yMin, yMax = box
@@ -107,6 +111,14 @@ def picture(
     pv.Render(view)
     pv.SaveScreenshot(str(output), view, ImageResolution=[width, height])
     pv.Delete(view)
+
+
+def section(mesh, origin, normal):
+    cut = pv.Slice(Input=mesh, SliceType="Plane")
+    cut.SliceType.Origin = list(origin)
+    cut.SliceType.Normal = list(normal)
+    cut.UpdatePipeline()
+    return cut
 
 
 def visibleRange(mesh, field, box):

@@ -125,58 +125,6 @@ bool Foam::ffdBox::contains(const Vector3& xi) const
 }
 
 
-void Foam::ffdBox::markExit
-(
-    const point& a,
-    const point& b,
-    faceFlags& faces
-) const
-{
-    // Lines of space are curved in some boxes: from as near to the exit as
-    // round-off allows they are straight
-    const morph::FfdFrame& frame = *settings_.frame;
-    const Vector3 from = toEigen(a);
-    const Vector3 along = toEigen(b) - from;
-    scalar in = 0;
-    scalar out = 1;
-    while (out - in > 1e-9)
-    {
-        const scalar middle = 0.5*(in + out);
-        const bool isIn = contains(frame.coordinates(from + middle*along));
-        (isIn ? in : out) = middle;
-    }
-    const Vector3 exit = from + in*along;
-    const Vector3 xi = frame.coordinates(exit);
-    const Vector3 direction = frame.gradient(exit)*along;
-
-    scalar first = GREAT;
-    FixedList<scalar, 6> reached(GREAT);
-    for (label d = 0; d < 3; ++d)
-    {
-        if (mag(direction[d]) > onFace)
-        {
-            const label face = direction[d] > 0 ? d + 3 : d;
-            const scalar wall = direction[d] > 0 ? 1 : 0;
-            reached[face] = max((wall - xi[d])/direction[d], scalar(0));
-            first = min(first, reached[face]);
-        }
-    }
-    forAll(faces, face)
-    {
-        faces[face] = faces[face] || reached[face] < first + 1e-6;
-    }
-}
-
-
-bool Foam::ffdBox::frozen(const labelVector& point, const label face) const
-{
-    const direction d = face % 3;
-    const label layer =
-        face < 3 ? point[d] : settings_.order[d] - point[d];
-    return layer < settings_.frozenLayers;
-}
-
-
 Foam::wordList Foam::ffdBox::offenders
 (
     const Vector3& xi,
@@ -215,7 +163,9 @@ Foam::wordList Foam::ffdBox::offenders
     wordList names;
     for (const label i : order)
     {
-        if (parameters_[i].value() != 0 && contributions[i] <= 0.1*worst)
+        // Where none does (a radius that becomes negative): all that act
+        const bool contributes = worst == 0 || contributions[i] <= 0.1*worst;
+        if (parameters_[i].value() != 0 && contributes)
         {
             names.append(parameters_[i].name());
         }
@@ -225,13 +175,6 @@ Foam::wordList Foam::ffdBox::offenders
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::string Foam::ffdBox::faceName(const label face)
-{
-    const char* names[] = {"s = 0", "t = 0", "p = 0", "s = 1", "t = 1", "p = 1"};
-    return names[face];
-}
-
 
 void Foam::ffdBox::update()
 {
@@ -350,76 +293,6 @@ void Foam::ffdBox::setPoints(const pointField& points)
     inside_.transfer(labels);
     coordinates_ = asVectors(coordinates);
     rows_ = settings_.lattice->rows(coordinates_);
-}
-
-
-Foam::ffdBox::faceFlags Foam::ffdBox::crossed
-(
-    const pointField& points,
-    const edgeList& edges
-) const
-{
-    boolList isIn(points.size(), false);
-    UIndirectList<bool>(isIn, inside_) = true;
-
-    faceFlags faces(false);
-    for (const edge& e : edges)
-    {
-        if (isIn[e.start()] != isIn[e.end()])
-        {
-            const label in = isIn[e.start()] ? e.start() : e.end();
-            markExit(points[in], points[e.otherVertex(in)], faces);
-        }
-    }
-    return faces;
-}
-
-
-Foam::wordList Foam::ffdBox::moving(const label face) const
-{
-    const direction d = face % 3;
-    const label layer = face < 3 ? 0 : settings_.order[d];
-    wordList names;
-    for (const ffdParameter& parameter : parameters_)
-    {
-        for (const auto& move : parameter.moves())
-        {
-            if (move.first()[d] == layer && !names.found(parameter.name()))
-            {
-                names.append(parameter.name());
-            }
-        }
-    }
-    return names;
-}
-
-
-void Foam::ffdBox::checkFrozen(const faceFlags& shared) const
-{
-    forAll(shared, face)
-    {
-        for (const ffdParameter& parameter : parameters_)
-        {
-            for (const auto& move : parameter.moves())
-            {
-                if (!shared[face] || !frozen(move.first(), face))
-                {
-                    continue;
-                }
-                FatalIOErrorInFunction(parameter.dict())
-                    << "Entry 'moves': point " << move.first() << " of box '"
-                    << name_ << "' is in a frozen layer: there is mesh beyond"
-                    << " the face " << faceName(face).c_str() << "," << nl
-                    << "    where 'continuity "
-                    << ffdBoxSettings::continuityNames[settings_.frozenLayers]
-                    << "' keeps " << settings_.frozenLayers
-                    << " layer(s) of control points at rest" << nl
-                    << "    Move points further inside, make the box larger"
-                    << " than the mesh there, or ask for less continuity" << nl
-                    << exit(FatalIOError);
-            }
-        }
-    }
 }
 
 

@@ -19,22 +19,11 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "ffdBoxSettings.H"
-#include "coordinateRotation.H"
 #include "dictionaryChecks.H"
-#include "eigenFields.H"
+#include "ffdFrames.H"
 #include "Tuple2.H"
-#include "unitConversion.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::ffdBoxSettings::boxType>
-Foam::ffdBoxSettings::boxTypeNames
-({
-    { boxType::box, "box" },
-    { boxType::cylindrical, "cylindrical" },
-    { boxType::corners, "corners" }
-});
-
 
 const Foam::Enum<Foam::ffdBoxSettings::basisType>
 Foam::ffdBoxSettings::basisTypeNames
@@ -63,165 +52,28 @@ const Foam::wordList Foam::ffdBoxSettings::continuityNames
 namespace Foam
 {
 
-using morph::Vector3;
-
-static vector readSpan(const dictionary& dict)
+// The entries of all boxes; those of its frame are added
+static void checkKeys(const dictionary& dict)
 {
-    const vector span(dict.get<vector>("span"));
-    for (direction d = 0; d < vector::nComponents; ++d)
-    {
-        if (!(span[d] > 0))
-        {
-            FatalIOErrorInFunction(dict)
-                << "Entry 'span' is " << span
-                << " but each of its components has to be positive" << nl
-                << "    The box reaches from its corner 'origin' along its"
-                << " axes; move the origin instead" << nl
-                << exit(FatalIOError);
-        }
-    }
-    return span;
-}
-
-
-static Eigen::Matrix3d columns(const vector& a, const vector& b, const vector& c)
-{
-    Eigen::Matrix3d m;
-    m << toEigen(a), toEigen(b), toEigen(c);
-    return m;
-}
-
-
-static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
-{
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    if (dict.found("rotation"))
-    {
-        const tensor R
-        (
-            coordinateRotation::New(dict.subDict("rotation"))->R()
-        );
-        axes = columns
-        (
-            vector(R.xx(), R.yx(), R.zx()),
-            vector(R.xy(), R.yy(), R.zy()),
-            vector(R.xz(), R.yz(), R.zz())
-        );
-    }
-    return std::make_shared<morph::AffineFrame>
+    wordList keys(ffdFrames::keys(dict));
+    keys.append
     (
-        toEigen(dict.get<vector>("origin")), toEigen(readSpan(dict)), axes
+        wordList
+        ({
+            "type", "order", "basis", "units", "continuity", "weights",
+            "parameters"
+        })
     );
+    if (dict.getOrDefault<word>("basis", "bernstein") == "bSpline")
+    {
+        keys.append("degree");
+    }
+    dictionaryChecks::onlyKeys(dict, keys);
 }
 
 
-static vector unitVector(const dictionary& dict, const word& key)
-{
-    const vector v(dict.get<vector>(key));
-    if (!(mag(v) > VSMALL))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << v
-            << " but has to be a direction" << nl << exit(FatalIOError);
-    }
-    return v/mag(v);
-}
-
-
-static std::shared_ptr<const morph::FfdFrame> readCylindrical
-(
-    const dictionary& dict
-)
-{
-    const vector axis(unitVector(dict, "axis"));
-
-    // Angle zero: as told, or the axis of space most normal to the cylinder's
-    vector radial(Zero);
-    if (dict.found("direction"))
-    {
-        radial = unitVector(dict, "direction");
-    }
-    else
-    {
-        direction least = 0;
-        for (direction d = 1; d < vector::nComponents; ++d)
-        {
-            least = mag(axis[d]) < mag(axis[least]) - SMALL ? d : least;
-        }
-        radial[least] = 1;
-    }
-    radial -= (radial & axis)*axis;
-    if (mag(radial) < 1e-6)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'direction' is that of the axis" << nl
-            << "    It says where the angle is zero: give one normal to the"
-            << " axis" << nl << exit(FatalIOError);
-    }
-    radial /= mag(radial);
-
-    vector start(dict.get<vector>("start"));
-    vector span(readSpan(dict));
-    if (start.x() < 0)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'start' is " << start << ": its first component is a"
-            << " radius and may not be negative" << nl << exit(FatalIOError);
-    }
-    if (span.y() > 360*(1 + 1e-12))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'span' is " << span << ": its second component is an"
-            << " angle of at most 360 degrees" << nl << exit(FatalIOError);
-    }
-    start.y() = degToRad(start.y());
-    span.y() = degToRad(span.y());
-    return std::make_shared<morph::CylindricalFrame>
-    (
-        toEigen(dict.get<vector>("origin")),
-        columns(radial, axis ^ radial, axis),
-        toEigen(start),
-        toEigen(span)
-    );
-}
-
-
-static std::shared_ptr<const morph::FfdFrame> readCorners
-(
-    const dictionary& dict
-)
-{
-    const List<point> given(dict.lookup("corners"));
-    if (given.size() != 8)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'corners' lists " << given.size()
-            << " points but has to list 8, in the order of blockMesh's hex"
-            << nl << exit(FatalIOError);
-    }
-
-    // hex goes around each of the two faces
-    const label places[] = {0, 1, 3, 2, 4, 5, 7, 6};
-    std::array<Vector3, 8> corners;
-    forAll(given, i)
-    {
-        corners[std::size_t(i)] = toEigen(given[places[i]]);
-    }
-    try
-    {
-        return std::make_shared<morph::HexahedralFrame>(corners);
-    }
-    catch (const std::invalid_argument& wrong)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'corners': " << wrong.what() << nl << exit(FatalIOError);
-    }
-    return nullptr;
-}
-
-
-// One direction: the contract counts L + 1 points, of which the first and the
-// last of a ring are one
+// The basis of a direction with L + 1 control points, of which the first and
+// the last of a ring are one
 static morph::BSpline readBasis
 (
     const dictionary& dict,
@@ -295,52 +147,6 @@ static label readContinuity(const dictionary& dict)
     return layers;
 }
 
-
-static void checkKeys(const dictionary& dict, const wordList& ofType)
-{
-    wordList keys
-    ({
-        "type", "order", "basis", "units", "continuity", "weights",
-        "parameters"
-    });
-    if (dict.getOrDefault<word>("basis", "bernstein") == "bSpline")
-    {
-        keys.append("degree");
-    }
-    keys.append(ofType);
-    dictionaryChecks::onlyKeys(dict, keys);
-}
-
-
-static std::shared_ptr<const morph::FfdFrame> readFrame(const dictionary& dict)
-{
-    using boxType = ffdBoxSettings::boxType;
-    switch
-    (
-        dictionaryChecks::getChoice
-        (
-            dict, "type", ffdBoxSettings::boxTypeNames, boxType::box
-        )
-    )
-    {
-        case boxType::cylindrical:
-        {
-            checkKeys(dict, {"origin", "axis", "direction", "start", "span"});
-            return readCylindrical(dict);
-        }
-        case boxType::corners:
-        {
-            checkKeys(dict, {"corners"});
-            return readCorners(dict);
-        }
-        default:
-        {
-            checkKeys(dict, {"origin", "span", "rotation"});
-            return readBox(dict);
-        }
-    }
-}
-
 } // End namespace Foam
 
 
@@ -348,8 +154,9 @@ static std::shared_ptr<const morph::FfdFrame> readFrame(const dictionary& dict)
 
 Foam::ffdBoxSettings Foam::ffdBoxSettings::read(const dictionary& dict)
 {
+    checkKeys(dict);
     ffdBoxSettings settings;
-    settings.frame = readFrame(dict);
+    settings.frame = ffdFrames::read(dict);
     settings.order = readOrder(dict);
     settings.units = dictionaryChecks::getChoice
     (
@@ -399,7 +206,7 @@ Foam::ffdBoxSettings Foam::ffdBoxSettings::read(const dictionary& dict)
 
 morph::Vector3 Foam::ffdBoxSettings::rest(const labelVector& point) const
 {
-    Vector3 xi;
+    morph::Vector3 xi;
     for (direction d = 0; d < 3; ++d)
     {
         xi[d] = order[d] > 0 ? scalar(point[d])/order[d] : 0.5;

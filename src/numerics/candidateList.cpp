@@ -182,7 +182,8 @@ constexpr int bins = 64;
 
 int binOf(double error, double largest)
 {
-    const double below = 4*std::log2(largest/error);
+    // OpenFOAM traps divisions by zero
+    const double below = error > 0 ? 4*std::log2(largest/error) : bins;
     return below > 0 ? int(std::min(below, bins - 1.0)) : 0;
 }
 

@@ -19,7 +19,6 @@ License
 
 #include "rbfMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
-#include "clockTime.H"
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
@@ -137,6 +136,20 @@ Foam::rbfMotionSolver::rbfMotionSolver
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
+}
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::rbfMotionSolver::~rbfMotionSolver()
+{
+    summary_.write
+    (
+        Info,
+        mesh().name() == polyMesh::defaultRegion
+      ? word(type())
+      : word(type() + '(' + mesh().name() + ')', false)
+    );
 }
 
 
@@ -368,6 +381,7 @@ void Foam::rbfMotionSolver::select(const bool first)
             state_.setPositions(selection_->selectedPositions());
         }
     }
+    summary_.add(result, result.added > 0);
     if (result.added > 0 || (newSystem && (first || !restored)))
     {
         report_.summary(result);
@@ -469,13 +483,9 @@ Foam::string Foam::rbfMotionSolver::remedy() const
 Foam::vectorField Foam::rbfMotionSolver::inOneStep(const bool first)
 {
     select(first);
-    const clockTime timer;
+    summary_.add(motionSummary::selection);
     vectorField inPlane(propagate());
-    if (debug)
-    {
-        Info<< type() << ": propagation " << timer.elapsedTime() << " s"
-            << endl;
-    }
+    summary_.add(motionSummary::propagation);
     return inPlane;
 }
 
@@ -628,6 +638,7 @@ Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 
 void Foam::rbfMotionSolver::solve()
 {
+    summary_.startStep();
     const bool first = !controlPoints_.valid();
     if (first)
     {
@@ -652,6 +663,7 @@ void Foam::rbfMotionSolver::solve()
     {
         dropSelection(first, newRadius);
     }
+    summary_.add(motionSummary::conditions);
 
     if (supportRadius_ > 0)
     {
@@ -660,6 +672,11 @@ void Foam::rbfMotionSolver::solve()
     else
     {
         pointDisplacement_.primitiveFieldRef() = Zero;
+    }
+    summary_.add(motionSummary::meshCheck);
+    if (debug)
+    {
+        summary_.writeStep(Info, type());
     }
 }
 

@@ -5,14 +5,20 @@ symmetry of the problem (a rotated box is the mesh rotated, the box, and the
 mesh rotated back); what each constraint means in OpenFOAM.
 """
 
+import pathlib
 import re
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
 
 from boxCase import fixed, point_field, vectors, words
+from foamCase import ROOT, environment
 from ffdCase import (CUBE, displaced, ffd_box, ffd_case, move, parameter,
                      points_at, reference, rotation, write_boxes)
+
+HERE = pathlib.Path(__file__).resolve().parent
 
 ROUND_OFF = 1e-14
 
@@ -417,3 +423,52 @@ def test_cut_patches_are_named_where_continuity_is_none(tmp_path):
                       r" \(([^)]*)\)", output) \
         == [("s = 0", "yMin yMax zMin zMax")]
     assert "tears where parameters (a) move" in output
+
+
+# --- several meshes, other meshes
+
+
+def build(program):
+    subprocess.run(["wmake", HERE/program], cwd=ROOT, check=True,
+                   env=environment(), stdout=subprocess.DEVNULL,
+                   stderr=subprocess.STDOUT)
+
+
+def test_two_regions_in_one_process_move_as_each_by_itself(tmp_path):
+    build("moveRegions")
+    boxes = {
+        "left": PARALLEL,
+        "right": ffd_box("one", parameter("a", MOVES, TABLE),
+                         origin=(-0.2, -0.1, -0.3), span=(1.5, 1.4, 1.5))}
+    both = ffd_case(tmp_path/"both", PARALLEL, cells=CELLS, control={"end": 3})
+    alone = {}
+    for region, its in boxes.items():
+        alone[region] = ffd_case(tmp_path/region, its, cells=CELLS,
+                                 control={"end": 3})
+        alone[region].run("moveDynamicMesh")
+        for name in ("constant/polyMesh", "constant/dynamicMeshDict",
+                     "system/fvSchemes", "system/fvSolution"):
+            there = pathlib.Path(name)
+            to = both.path/there.parent/region/there.name
+            to.parent.mkdir(parents=True, exist_ok=True)
+            copy = shutil.copytree if there.name == "polyMesh" else shutil.copy
+            copy(alone[region].path/name, to)
+    both.run("moveRegions", "left", "right")
+    for region in boxes:
+        for time in (1, 2, 3):
+            np.testing.assert_array_equal(
+                both.points(f"{time}/{region}/polyMesh/points"),
+                points_at(alone[region], time))
+
+
+def test_after_a_change_of_topology_the_motion_is_that_of_a_new_solver(
+        tmp_path):
+    build("changeTopology")
+    case = ffd_case(tmp_path, ffd_box("body", parameter("a", MOVES, TABLE)),
+                    cells=(6, 5, 4))
+    output = case.run("changeTopology")
+    before, after = map(int, re.search(
+        r"cells (\d+) then (\d+)", output).groups())
+    assert 0 < after < before
+    assert float(re.search(r"largest motion (\S+)", output)[1]) > 0.02
+    assert float(re.search(r"largest difference (\S+)", output)[1]) == 0

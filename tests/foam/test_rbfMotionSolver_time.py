@@ -5,6 +5,7 @@ continued is the same to the last bit, in binary files, on any number of ranks
 and where they change in between.
 """
 
+import re
 import shutil
 
 import numpy as np
@@ -175,3 +176,24 @@ def test_control_points_that_are_gone_are_announced(tmp_path):
     output = advance(case, 2)
     assert "selected anew" in output
     assert selections(output)
+
+
+def test_the_log_ends_with_what_the_run_took(tmp_path):
+    case = turning_case(tmp_path)
+    output = advance(case, 2)
+    known = selections(output)
+    found = re.search(
+        r"End\n.*^rbfMotionSolver: (\d+) steps, (\d+) selections, (\d+) of"
+        r" (\d+) control points,\n    largest error (\S+) m of a displacement"
+        r" of (\S+) m\n    (\S+) s of (\S+) s \((\S+) %\): conditions (\S+) s,"
+        r" selection (\S+) s, propagation (\S+) s, mesh check (\S+) s$",
+        output, re.MULTILINE | re.DOTALL)
+    steps, times, points, candidates = map(int, found.groups()[:4])
+    error, displacement, motion, run, share, *phases = map(
+        float, found.groups()[4:])
+    assert (steps, times) == (8, len(known))
+    assert (points, candidates) == known[-1][:2]
+    assert error >= max(s[2] for s in known)*0.99
+    assert 0 < displacement < 1
+    assert sum(phases) == pytest.approx(motion, rel=0.05, abs=1e-4)
+    assert share == pytest.approx(100*motion/run, rel=0.05)

@@ -1,0 +1,146 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+Application
+    benchmarkFfd
+
+Description
+    Times of free-form deformation of the points of a mesh by boxes that
+    contain it, in CPU seconds of one core: preparation once, evaluation for
+    new values (the fold certificate apart).
+
+    Reads constant/benchmarkDict: \c cases, a dictionary with the entry \c boxes
+    for each; and \c volumetricBSplines, if that is given, for OpenFOAM's
+    NURBS3DVolume.
+
+\*---------------------------------------------------------------------------*/
+
+#include "argList.H"
+#include "ffdBoxes.H"
+#include "fvMesh.H"
+#include "IOdictionary.H"
+#include "NURBS3DVolume.H"
+#include "Time.H"
+
+#include <time.h>
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+// CPU seconds since the last call, finer than OpenFOAM's cpuTime
+static scalar passed()
+{
+    static scalar former = 0;
+    timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    const scalar seconds = now.tv_sec + 1e-9*now.tv_nsec;
+    const scalar difference = seconds - former;
+    former = seconds;
+    return difference;
+}
+
+
+static scalar median(scalarList times)
+{
+    sort(times);
+    return times[times.size()/2];
+}
+
+
+static void ours(const dictionary& dict, const pointField& points)
+{
+    const label repeats = 7;
+    ffdBoxes boxes(dict);
+    scalarList certificate(repeats), preparation(repeats), evaluation(repeats);
+    scalar largest = 0;
+    for (label i = 0; i < repeats; ++i)
+    {
+        // Small, and different enough not to be a translation
+        scalarField values(boxes.nParameters());
+        forAll(values, p)
+        {
+            values[p] = 1e-3*(i + 1)*(p*7 % 5 - 2.5);
+        }
+        passed();
+        boxes.update(values);
+        certificate[i] = passed();
+        boxes.setPoints(points, edgeList());
+        boxes.displacement();
+        preparation[i] = passed();
+        const vectorField d(boxes.displacement());
+        evaluation[i] = passed();
+        preparation[i] -= evaluation[i];
+        largest = max(mag(d));
+    }
+    Info<< "ours " << dict.dictName() << ' ' << boxes.nParameters() << ' '
+        << median(preparation) << ' ' << median(evaluation) << ' '
+        << median(certificate) << ' ' << largest << endl;
+}
+
+
+static void theirs(const dictionary& dict, const fvMesh& mesh)
+{
+    passed();
+    autoPtr<NURBS3DVolume> box(NURBS3DVolume::New(dict, mesh));
+    box->getParametricCoordinates();
+    const scalar preparation = passed();
+    vectorField movement(box->getControlPoints().size(), Zero);
+    const pointField moved(box->computeNewPoints(movement));
+    const scalar evaluation = passed();
+    Info<< "theirs " << box->getMap().size() << ' ' << preparation << ' '
+        << evaluation << ' ' << max(mag(moved - mesh.points())) << endl;
+}
+
+
+int main(int argc, char *argv[])
+{
+    argList::noParallel();
+    argList args(argc, argv);
+    Time runTime(Time::controlDictName, args);
+    const fvMesh mesh
+    (
+        IOobject
+        (
+            fvMesh::defaultRegion,
+            runTime.timeName(),
+            runTime,
+            IOobject::MUST_READ
+        )
+    );
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            "benchmarkDict", runTime.constant(), runTime, IOobject::MUST_READ
+        )
+    );
+
+    for (const entry& e : dict.subDict("cases"))
+    {
+        ours(e.dict(), mesh.points());
+    }
+    if (dict.found("volumetricBSplines"))
+    {
+        theirs(dict.subDict("volumetricBSplines"), mesh);
+    }
+    return 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,247 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+
+\*---------------------------------------------------------------------------*/
+
+#include "ffdFrames.H"
+#include "coordinateRotation.H"
+#include "dictionaryChecks.H"
+#include "eigenFields.H"
+#include "unitConversion.H"
+
+// * * * * * * * * * * * * * * * * * Constants  * * * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::ffdFrames::boxType> Foam::ffdFrames::boxTypeNames
+({
+    { boxType::box, "box" },
+    { boxType::cylindrical, "cylindrical" },
+    { boxType::corners, "corners" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+using morph::Vector3;
+
+static vector readSpan(const dictionary& dict)
+{
+    const vector span(dict.get<vector>("span"));
+    for (direction d = 0; d < vector::nComponents; ++d)
+    {
+        if (!(span[d] > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'span' is " << span
+                << " but each of its components has to be positive" << nl
+                << "    The box reaches from its corner 'origin' along its"
+                << " axes; move the origin instead" << nl
+                << exit(FatalIOError);
+        }
+    }
+    return span;
+}
+
+
+static Eigen::Matrix3d columns(const vector& a, const vector& b, const vector& c)
+{
+    Eigen::Matrix3d m;
+    m << toEigen(a), toEigen(b), toEigen(c);
+    return m;
+}
+
+
+static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
+{
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    if (dict.found("rotation"))
+    {
+        const tensor R
+        (
+            coordinateRotation::New(dict.subDict("rotation"))->R()
+        );
+        axes = columns
+        (
+            vector(R.xx(), R.yx(), R.zx()),
+            vector(R.xy(), R.yy(), R.zy()),
+            vector(R.xz(), R.yz(), R.zz())
+        );
+    }
+    return std::make_shared<morph::AffineFrame>
+    (
+        toEigen(dict.get<vector>("origin")), toEigen(readSpan(dict)), axes
+    );
+}
+
+
+static vector unitVector(const dictionary& dict, const word& key)
+{
+    const vector v(dict.get<vector>(key));
+    if (!(mag(v) > VSMALL))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << v
+            << " but has to be a direction" << nl << exit(FatalIOError);
+    }
+    return v/mag(v);
+}
+
+
+static std::shared_ptr<const morph::FfdFrame> readCylindrical
+(
+    const dictionary& dict
+)
+{
+    const vector axis(unitVector(dict, "axis"));
+
+    // Angle zero: as told, or the axis of space most normal to the cylinder's
+    vector radial(Zero);
+    if (dict.found("direction"))
+    {
+        radial = unitVector(dict, "direction");
+    }
+    else
+    {
+        direction least = 0;
+        for (direction d = 1; d < vector::nComponents; ++d)
+        {
+            least = mag(axis[d]) < mag(axis[least]) - SMALL ? d : least;
+        }
+        radial[least] = 1;
+    }
+    radial -= (radial & axis)*axis;
+    if (mag(radial) < 1e-6)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'direction' is that of the axis" << nl
+            << "    It says where the angle is zero: give one normal to the"
+            << " axis" << nl << exit(FatalIOError);
+    }
+    radial /= mag(radial);
+
+    vector start(dict.get<vector>("start"));
+    vector span(readSpan(dict));
+    if (start.x() < 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'start' is " << start << ": its first component is a"
+            << " radius and may not be negative" << nl << exit(FatalIOError);
+    }
+    if (span.y() > 360*(1 + 1e-12))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'span' is " << span << ": its second component is an"
+            << " angle of at most 360 degrees" << nl << exit(FatalIOError);
+    }
+    start.y() = degToRad(start.y());
+    span.y() = degToRad(span.y());
+    return std::make_shared<morph::CylindricalFrame>
+    (
+        toEigen(dict.get<vector>("origin")),
+        columns(radial, axis ^ radial, axis),
+        toEigen(start),
+        toEigen(span)
+    );
+}
+
+
+static std::shared_ptr<const morph::FfdFrame> readCorners
+(
+    const dictionary& dict
+)
+{
+    const List<point> given(dict.lookup("corners"));
+    if (given.size() != 8)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'corners' lists " << given.size()
+            << " points but has to list 8, in the order of blockMesh's hex"
+            << nl << exit(FatalIOError);
+    }
+
+    // hex goes around each of the two faces
+    const label places[] = {0, 1, 3, 2, 4, 5, 7, 6};
+    std::array<Vector3, 8> corners;
+    forAll(given, i)
+    {
+        corners[std::size_t(i)] = toEigen(given[places[i]]);
+    }
+    try
+    {
+        return std::make_shared<morph::HexahedralFrame>(corners);
+    }
+    catch (const std::invalid_argument& wrong)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'corners': " << wrong.what() << nl << exit(FatalIOError);
+    }
+    return nullptr;
+}
+
+
+static ffdFrames::boxType readType(const dictionary& dict)
+{
+    return dictionaryChecks::getChoice
+    (
+        dict, "type", ffdFrames::boxTypeNames, ffdFrames::boxType::box
+    );
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::ffdFrames::keys(const dictionary& dict)
+{
+    switch (readType(dict))
+    {
+        case boxType::cylindrical:
+            return {"origin", "axis", "direction", "start", "span"};
+
+        case boxType::corners:
+            return {"corners"};
+
+        default:
+            return {"origin", "span", "rotation"};
+    }
+}
+
+
+std::shared_ptr<const morph::FfdFrame> Foam::ffdFrames::read
+(
+    const dictionary& dict
+)
+{
+    switch (readType(dict))
+    {
+        case boxType::cylindrical:
+            return readCylindrical(dict);
+
+        case boxType::corners:
+            return readCorners(dict);
+
+        default:
+            return readBox(dict);
+    }
+}
+
+
+// ************************************************************************* //
