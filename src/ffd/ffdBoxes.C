@@ -247,6 +247,11 @@ Foam::tmp<Foam::vectorField> Foam::ffdBoxes::displacement()
         }
     }
     prepared_ = true;
+    if (combine_ == combination::sum || boxes_.size() == 1)
+    {
+        // Only what acts on moved points asks for them again
+        edges_.clear();
+    }
     return total;
 }
 
