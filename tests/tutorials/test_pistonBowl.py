@@ -25,7 +25,7 @@ def test_points_stay_on_the_surfaces_they_slide_on(results, motion, surface):
 
 
 @pytest.mark.parametrize("motion, angle", [
-    ("stroke", 29), ("offset", 35), ("reentrant", 40)])
+    ("stroke", 29), ("offset", 36), ("reentrant", 40)])
 def test_the_mesh_keeps_its_quality(results, motion, angle):
     row = results[motion]
     assert float(row["wrong faces"]) == 0

@@ -1,0 +1,70 @@
+"""results/figures.md and .csv: what each run keeps, and the mesh it gives."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from passage import CASING, PITCH, TIP, blade, patchPoints, polar, readVectors
+
+here = Path(__file__).resolve().parent
+before = readVectors(here / "constant/polyMesh/points")
+points = {name: patchPoints(name)
+          for name in ("left", "right", "casing", "blade")}
+
+
+def turned(x):
+    c, s = np.cos(PITCH), np.sin(PITCH)
+    return x @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]]).T
+
+
+def pairs():
+    """Of each point of the left side the one on the right."""
+    there = before[points["right"]]
+    order = np.lexsort(np.round(there, 7).T)
+    here_ = np.lexsort(np.round(turned(before[points["left"]]), 7).T)
+    a, b = points["left"][here_], points["right"][order]
+    assert np.abs(turned(before[a]) - before[b]).max() < 1e-9
+    return a, b
+
+
+def row(images):
+    run = here / f"runs/images.{images}"
+    after = readVectors(run / "1/polyMesh/points")
+    log = (run / "log.morphMesh").read_text()
+    a, b = pairs()
+    on = points["blade"]
+    tip = on[np.abs(polar(before[on])[2] - TIP) < 1e-9]
+    quality = re.search(r"^after +(.*)", log, re.MULTILINE).group(1).split()
+    selected, of = re.search(r"selected (\d+) of (\d+)", log).groups()
+    return {
+        "images": images,
+        "selected": selected,
+        "control points": of,
+        "max non-orthogonality": quality[2],
+        "max skewness": quality[3],
+        "wrong faces": quality[5],
+        "off casing": np.abs(
+            polar(after[points["casing"]])[2] - CASING).max(),
+        "tip gap": np.abs(polar(after[tip])[2] - TIP).max(),
+        "off blade": np.abs(after[on] - blade(before[on])).max(),
+        "pairs": np.abs(turned(after[a]) - after[b]).max(),
+        "motion of the sides": np.linalg.norm(
+            after[a] - before[a], axis=1).max(),
+    }
+
+
+rows = [row("auto"), row("no")]
+(here / "results").mkdir(exist_ok=True)
+with (here / "results/figures.csv").open("w", newline="") as file:
+    writer = csv.DictWriter(file, rows[0])
+    writer.writeheader()
+    writer.writerows(rows)
+with (here / "results/figures.md").open("w") as file:
+    file.write("|" + "|".join(rows[0]) + "|\n" + "|---"*len(rows[0]) + "|\n")
+    for r in rows:
+        file.write("|" + "|".join(
+            v if isinstance(v, str) else f"{v:.2g}" for v in r.values())
+            + "|\n")
+print((here / "results/figures.md").read_text())
