@@ -182,8 +182,10 @@ constexpr int bins = 64;
 
 int binOf(double error, double largest)
 {
-    // OpenFOAM traps divisions by zero
-    const double below = error > 0 ? 4*std::log2(largest/error) : bins;
+    // An error may be zero or so small that the quotient overflows, which
+    // OpenFOAM traps
+    const double below =
+        error > 0 ? 4*(std::log2(largest) - std::log2(error)) : bins;
     return below > 0 ? int(std::min(below, bins - 1.0)) : 0;
 }
 

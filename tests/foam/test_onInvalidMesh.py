@@ -350,3 +350,33 @@ def test_points_stay_on_a_curved_surface_on_a_part_of_their_way(
     assert np.abs(np.hypot(y[casing, 0], y[casing, 1]) - 1).max() < 1e-13
     made = float(motion(case, folder="morphMesh")["moved"])*distance
     np.testing.assert_allclose(y[hub], x[hub] + [made, 0, 0], atol=1e-12)
+
+
+# --- polyhedra
+
+
+AFFINE = "polynomial linear; selection all; supportRadius 2;" + lowered(1.5)
+
+
+def polyhedral(case):
+    case.run("polyDualMesh", "30", "-overwrite", "-noFunctionObjects")
+
+
+def with_hanging_nodes(case):
+    case.write("system/topoSetDict", "dictionary", """actions
+        ({ name half; type cellSet; action new; source boxToCell;
+           box (-1 -1 -1) (0.5 0.6 0.4); });""")
+    case.run("topoSet")
+    case.run("refineHexMesh", "half", "-overwrite")
+
+
+@pytest.mark.parametrize("make", [polyhedral, with_hanging_nodes])
+def test_cells_of_any_shape_break_where_their_volume_ends(tmp_path, make):
+    # With a linear polynomial the whole box is squeezed evenly: 1 - 1.5 t
+    case = rbf_case(tmp_path, coeffs=LIMIT + AFFINE)
+    make(case)
+    for time in case.path.glob("[0-9]*"):
+        assert not (time/"polyMesh").exists()
+    case.run("morphMesh", "-time", 1)
+    record = motion(case, folder="morphMesh")
+    assert float(record["attainable"]) == pytest.approx(2/3, rel=1e-5)
