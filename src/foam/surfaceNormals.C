@@ -31,6 +31,9 @@ namespace Foam
 // Sine of the angle below which opposite normals are those of one plane
 static const scalar opposite = 0.02;
 
+// Sine of the angle below which two edges of a face are nearly in line
+static const scalar straight = 0.8;
+
 
 static bool before
 (
@@ -132,9 +135,10 @@ Foam::vector Foam::surfaceNormals::cornerNormal
     const vector unit = area/max(mag(area), VSMALL);
     const vector between = (a ^ b)/size;
 
-    // At a vertex between two edges in line the face has no normal of its own,
-    // and little weight
-    const vector n = mag(between) > 1e-6 ? between : vector(1e-6*unit);
+    // Between two edges nearly in line there is no telling a corner of the face
+    // from one of the surface: the direction is that of the whole face
+    const scalar sine = mag(between);
+    const vector n = sine > straight ? between : max(sine, 1e-6)*unit;
     return ((n & unit) < 0 ? -n : n)/size;
 }
 

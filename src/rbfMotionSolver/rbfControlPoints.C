@@ -34,8 +34,8 @@ namespace Foam
 static const scalar samePlace = 1e-8;
 
 // Directions of conditions are renewed where the cosine of the angle to those
-// of the surface is smaller
-static const scalar turnedCosine = 0.5;
+// of the surface is smaller: the iteration converges like the tangent
+static const scalar turnedCosine = 0.8;
 
 // More than any displacement, for points whose displacement is not known yet;
 // its square is still a number
@@ -67,7 +67,9 @@ Foam::rbfControlPoints::rbfControlPoints
     groups_(groups),
     plane_(plane),
     images_(images),
-    listedPoints_(points0, groups, plane)
+    listedPoints_(points0, groups, plane),
+    follow_(false),
+    farthest_(boundBox(points0, true).mag())
 {
     assign();
     own();
@@ -76,7 +78,8 @@ Foam::rbfControlPoints::rbfControlPoints
     (
         new slidingPoints
         (
-            mesh, points0, groups, plane, featureAngle, controlled_, onAxis_
+            mesh, dict, points0, groups, plane, featureAngle, controlled_,
+            onAxis_
         )
     );
 }
@@ -559,54 +562,90 @@ bool Foam::rbfControlPoints::update(const bool anew)
 }
 
 
+morph::Vectors Foam::rbfControlPoints::atCandidates
+(
+    const morph::RbfInterpolant& field
+) const
+{
+    morph::Vectors positions(candidates_.size(), 3);
+    for (std::size_t j = 0; j < candidates_.size(); ++j)
+    {
+        positions.row(j) = candidates_[j].position.transpose();
+    }
+    return field(positions);
+}
+
+
 void Foam::rbfControlPoints::renew
 (
     const morph::Vectors& s,
     morph::ControlPoints& candidates
 )
 {
-    leastCosine_ = 1;
     forAll(places_, j)
     {
+        const label i = places_[j];
         morph::ControlPoint& p = whole_[j];
-        if (p.slides() && sliding_->follows(places_[j]))
+        const morph::Vector3 here = s.row(j).transpose();
+
+        // Not for an iteration that gets lost
+        if (p.slides() && sliding_->follows(i) && here.norm() < farthest_)
         {
-            const morph::Vector3 here = s.row(j).transpose();
-            const double cosine = morph::slideOnto
-            (
-                p, here, sliding_->planes(places_[j], toFoam(here))
-            );
+            morph::slideOnto(p, here, sliding_->planes(i, toFoam(here)));
             candidates[j].value = restricted(p).value;
-            leastCosine_ = min(leastCosine_, cosine);
         }
     }
 }
 
 
-bool Foam::rbfControlPoints::turned() const
+bool Foam::rbfControlPoints::turned(const morph::RbfInterpolant& field) const
 {
-    return returnReduce(leastCosine_, minOp<scalar>()) < turnedCosine;
+    if (!follow_)
+    {
+        return false;
+    }
+    scalar least = 1;
+    const morph::Vectors s = atCandidates(field);
+    forAll(places_, j)
+    {
+        const label i = places_[j];
+        morph::ControlPoint p = whole_[j];
+        const morph::Vector3 here = s.row(j).transpose();
+        if (p.slides() && sliding_->follows(i) && here.norm() < farthest_)
+        {
+            const scalar cosine =
+                morph::slideOnto(p, here, sliding_->planes(i, toFoam(here)));
+            least = min(least, cosine);
+        }
+    }
+    return returnReduce(least, minOp<scalar>()) < turnedCosine;
 }
 
 
-void Foam::rbfControlPoints::renewDirections(const morph::Vectors& s)
+void Foam::rbfControlPoints::renewDirections
+(
+    const morph::RbfInterpolant& field
+)
 {
+    const morph::Vectors s = atCandidates(field);
     forAll(places_, j)
     {
         const label i = places_[j];
         morph::ControlPoint& p = whole_[j];
-        if (!p.slides() || !sliding_->follows(i))
-        {
-            continue;
-        }
         const morph::Vector3 here = s.row(j).transpose();
-        start_[i] = toFoam(here);
-        sliding_->renewDirections(i, start_[i]);
-        p = condition
-        (
-            points0_[controlled_[i]], true, sliding_->normals(i), start_[i]
-        );
-        candidates_[j] = restricted(p);
+        if (p.slides() && sliding_->follows(i) && here.norm() < farthest_)
+        {
+            start_[i] = sliding_->onto(i, toFoam(here));
+            sliding_->renewDirections(i, start_[i]);
+            p = condition
+            (
+                points0_[controlled_[i]],
+                true,
+                sliding_->normals(i),
+                start_[i]
+            );
+            candidates_[j] = restricted(p);
+        }
     }
 }
 

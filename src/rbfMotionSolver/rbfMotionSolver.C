@@ -60,6 +60,13 @@ namespace Foam
 // distance of selected points, over which what they leave varies
 static const scalar correctionReach = 0.1;
 
+// How often directions are renewed, which is one selection each, for points
+// that go far around their surface: each brings some 60 degrees
+static const label mostTurns = 3;
+
+// Of where points that slide go roughly, in largest displacements
+static const scalar roughTolerance = 1e-2;
+
 // Least factor by which a support radius that follows the motion grows
 static const scalar radiusGrowth = 1.5;
 
@@ -347,6 +354,32 @@ void Foam::rbfMotionSolver::makeSelection(morph::Communicator& communicator)
 }
 
 
+void Foam::rbfMotionSolver::orient(morph::Communicator& communicator)
+{
+    if (!controlPoints_->follow())
+    {
+        return;
+    }
+
+    // Where points go roughly, in planes tangential to their surfaces
+    morph::SelectionSettings rough;
+    rough.tolerance = roughTolerance;
+    morph::GreedySelection selection
+    (
+        morph::Kernel(settings_.kernel, supportRadius_),
+        settings_.polynomial,
+        rough,
+        images_->inReach()
+    );
+    const morph::ControlPoints& candidates = controlPoints_->candidates();
+    selection.select(candidates, communicator);
+    if (controlPoints_->turned(selection.interpolant()))
+    {
+        controlPoints_->renewDirections(selection.interpolant());
+    }
+}
+
+
 void Foam::rbfMotionSolver::select(const bool first)
 {
     const bool restored = !restored_.empty();
@@ -357,12 +390,27 @@ void Foam::rbfMotionSolver::select(const bool first)
     {
         if (newSystem)
         {
+            orient(communicator);
             makeSelection(communicator);
         }
         result = selection_->select
         (
             controlPoints_->candidates(), communicator, renewal()
         );
+        for
+        (
+            label n = 0;
+            n < mostTurns && controlPoints_->turned(selection_->interpolant());
+            ++n
+        )
+        {
+            controlPoints_->renewDirections(selection_->interpolant());
+            makeSelection(communicator);
+            result = selection_->select
+            (
+                controlPoints_->candidates(), communicator, renewal()
+            );
+        }
     }
     catch (const std::exception& wrong)
     {

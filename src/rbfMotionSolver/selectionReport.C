@@ -81,7 +81,8 @@ void Foam::selectionReport::warnOfTolerance
     const scalar supportRadius
 ) const
 {
-    const bool incomplete = result.rejected > 0 || !settings_.selection.all;
+    const bool incomplete =
+        result.rejected > 0 || result.renewals > 0 || !settings_.selection.all;
     if (!result.converged() && incomplete)
     {
         WarningInFunction
@@ -93,10 +94,16 @@ void Foam::selectionReport::warnOfTolerance
                 << " to others for a support radius of " << supportRadius
                 << " m" << nl << "    Reduce the support radius" << endl;
         }
-        else
+        else if (result.selected >= settings_.selection.maxPoints)
         {
             Info<< "greedy/maxPoints is reached" << nl
                 << "    Raise it, or the tolerance" << endl;
+        }
+        else
+        {
+            Info<< "points that slide do not come nearer to their surface"
+                << nl << "    Make the motion smaller, or the surface smoother:"
+                << " along an edge of it only its own points can slide" << endl;
         }
     }
     if (result.roundOff > 0.1*result.tolerance)

@@ -67,6 +67,7 @@ static vector normalOf(const face& f, const pointField& x, const label k)
 Foam::slidingPoints::slidingPoints
 (
     const polyMesh& mesh,
+    const dictionary& dict,
     const pointField& points0,
     const PtrList<controlPointGroup>& groups,
     const planarReduction& plane,
@@ -76,6 +77,7 @@ Foam::slidingPoints::slidingPoints
 )
 :
     mesh_(mesh),
+    dict_(dict),
     points0_(points0),
     groups_(groups),
     plane_(plane),
@@ -470,7 +472,7 @@ void Foam::slidingPoints::findNamedNormals()
             }
         }
     }
-    dictionaryChecks::stopIf(groups_[0].dict(), message.str());
+    dictionaryChecks::stopIf(dict_, message.str());
 }
 
 

@@ -10,10 +10,12 @@ from boxCase import from_block_mesh, vectors
 from rbfCase import DROP_IN
 
 
-def annulus_mesh(cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0):
+def annulus_mesh(cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0,
+                 ends="patch"):
     """Between two cylinders along z: patches hub, casing, zMin, zMax.
 
     cells: around in each quarter, radial, along.
+    ends: type of the patches zMin and zMax.
     """
     angles = np.arange(4)*np.pi/2
     corners = [(r*np.cos(a), r*np.sin(a), z) for z in (0, length)
@@ -47,8 +49,8 @@ boundary
 (
     hub {{ type wall; faces ( {hub} ); }}
     casing {{ type wall; faces ( {casing} ); }}
-    zMin {{ type patch; faces ( {low} ); }}
-    zMax {{ type patch; faces ( {high} ); }}
+    zMin {{ type {ends}; faces ( {low} ); }}
+    zMax {{ type {ends}; faces ( {high} ); }}
 );
 """
 
@@ -58,3 +60,18 @@ def annulus(path, coeffs, control=None, **mesh):
     case.write("constant/dynamicMeshDict", "dictionary",
                DROP_IN + f"rbfMotionSolverCoeffs\n{{\n{coeffs}\n}}")
     return case
+
+
+def duct_obj(radius, sectors, low=-0.5, high=1.5):
+    """An OBJ file of a polygonal duct: its flat sides begin at angle zero.
+
+    (Numbers of STL files are read in single precision.)
+    """
+    angles = np.arange(sectors)*2*np.pi/sectors
+    text = "".join(
+        f"v {float(radius*np.cos(a))!r} {float(radius*np.sin(a))!r} {z!r}\n"
+        for z in (low, high) for a in angles)
+    for i in range(sectors):
+        a, b = 1 + i, 1 + (i + 1) % sectors
+        text += f"f {a} {b} {b + sectors}\nf {a} {b + sectors} {a + sectors}\n"
+    return text

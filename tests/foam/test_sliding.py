@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rbfCase import groups, move, points_at, reference, selections
-from slidingCases import annulus
+from slidingCases import annulus, duct_obj
 
 # The hub turns about an axis that is not quite that of the casing
 TURN = ("displacement { type solidBody; solidBodyMotionFunction rotatingMotion;"
@@ -39,13 +39,13 @@ def off_cylinder(points):
     return np.abs(np.hypot(points[:, 0], points[:, 1]) - 1).max()
 
 
-def off_faces(points):
-    """How far points are from the flat faces of the casing."""
-    sector = np.pi/2/CELLS[0]
+def off_faces(points, radius=1, sectors=4*CELLS[0]):
+    """How far points are from the flat sides of a duct."""
+    sector = 2*np.pi/sectors
     angle = np.arctan2(points[:, 1], points[:, 0])
     middle = (np.floor(angle/sector) + 0.5)*sector
     return np.abs(np.hypot(points[:, 0], points[:, 1])*np.cos(angle - middle)
-                  - np.cos(sector/2)).max()
+                  - radius*np.cos(sector/2)).max()
 
 
 def off_ends(before, after):
@@ -81,3 +81,162 @@ def test_the_field_itself_is_on_the_surface_to_the_tolerance(tmp_path, surface,
     distance = off(after[on_casing(before)])
     # Not by the last projection, which is off
     assert 1e-3*tolerance < distance < 1.1*tolerance
+
+
+# --- onto other surfaces
+
+STILL = "displacement { type uniform; value (0.02 0 0); }"
+
+
+def test_points_slide_onto_a_sphere(tmp_path):
+    centre = np.array([0.1, 0, 0.5])
+    case = casing_case(
+        tmp_path, "target { type searchableSphere; centre (0.1 0 0.5);"
+        " radius 1.2; }", hub=STILL)
+    before = reference(case)
+    after = move(case)
+    casing = on_casing(before)
+    radius = np.linalg.norm(after[casing] - centre, axis=1)
+    assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.1
+    np.testing.assert_allclose(radius, 1.2, rtol=0, atol=1e-13)
+    assert off_ends(before, after) < 1e-13
+
+
+def test_points_slide_onto_triangles_of_a_file(tmp_path):
+    case = casing_case(tmp_path, 'target "new.obj";', hub=STILL)
+    (case.path/"constant/triSurface").mkdir()
+    (case.path/"constant/triSurface/new.obj").write_text(
+        duct_obj(1.1, 40))
+    before = reference(case)
+    after = move(case)
+    casing = on_casing(before)
+    assert off_faces(after[casing], 1.1, 40) < 1e-12
+    assert off_ends(before, after) < 1e-12
+
+
+def test_on_a_named_surface_points_keep_the_distance_they_have(tmp_path):
+    # The dual mesh has its points in the middle of the faces of the old one
+    case = casing_case(tmp_path, f"surface {CYLINDER}", hub=TURN)
+    case.run("polyDualMesh", "60", "-overwrite")
+    before = reference(case)
+    casing = np.hypot(before[:, 0], before[:, 1]) > 0.985
+    distance = 1 - np.hypot(*before[casing, :2].T)
+    assert distance.max() > 1e-3
+    after = move(case)
+    assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.2
+    np.testing.assert_allclose(1 - np.hypot(*after[casing, :2].T), distance,
+                               rtol=0, atol=1e-12)
+
+
+# --- motions
+
+def test_a_long_way_around(tmp_path):
+    # One end turns by 57 degrees, the other is fixed, the walls slide
+    case = annulus(tmp_path, "greedy { tolerance 1e-3; } supportRadius 2;"
+                   + groups(
+                       top="type moving; patches (zMax); displacement { type"
+                       " solidBody; solidBodyMotionFunction rotatingMotion;"
+                       " rotatingMotionCoeffs { origin (0 0 0); axis (0 0 1);"
+                       " omega 1; } }",
+                       bottom="type fixed; patches (zMin);",
+                       walls="type sliding; patches (casing hub);"),
+                   cells=(8, 6, 10))
+    before = reference(case)
+    output = case.run("moveDynamicMesh")
+    assert "Warning" not in output
+    after = points_at(case, "1")
+    # (The ends go where they are told to)
+    casing = on_casing(before) & (0.01 < before[:, 2]) & (before[:, 2] < 0.99)
+    assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.8
+    assert off_faces(after[casing], 1, 32) < 1e-12
+    assert "Mesh OK" in output
+
+
+def test_there_and_back_does_not_drift(tmp_path):
+    steps = 40
+    swing = " ".join(f"({t} ({0.3*np.sin(t*np.pi/4)!r} 0 {0.2*(t % 2)!r}))"
+                     for t in range(steps + 1))
+    case = casing_case(
+        tmp_path, hub="displacement { type uniform; value table"
+        f" ({swing}); }}",
+        control={"end": steps, "writeInterval": 8, "format": "ascii"})
+    before = reference(case)
+    case.run("moveDynamicMesh")
+    # Every eight steps at rest, where nothing is left
+    for t in range(8, steps + 1, 8):
+        np.testing.assert_allclose(case.points(f"{t}/polyMesh/points"), before,
+                                   rtol=0, atol=1e-13)
+
+
+def test_in_two_dimensions_points_stay_on_the_curve(tmp_path):
+    case = annulus(tmp_path, "greedy { tolerance 1e-3; } supportRadius 2;"
+                   + groups(hub="type moving; patches (hub); displacement"
+                            " { type uniform; value (0.2 0.1 0); }",
+                            casing="type sliding; patches (casing);"),
+                   cells=(CELLS[0], 5, 1), ends="empty")
+    before = reference(case)
+    after = move(case)
+    casing = on_casing(before)
+    assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.02
+    assert off_faces(after[casing]) < 1e-13
+    np.testing.assert_array_equal(after[:, 2], before[:, 2])
+
+
+@pytest.mark.parametrize("surface", ["", 'target "new.obj";'])
+def test_every_decomposition_slides_alike(tmp_path, surface):
+    def case(path):
+        case = casing_case(path, surface, hub=TURN if not surface else STILL)
+        (case.path/"constant/triSurface").mkdir()
+        (case.path/"constant/triSurface/new.obj").write_text(
+            duct_obj(1.1, 40))
+        return case
+
+    serial = case(tmp_path/"serial")
+    expected = selections(serial.run("moveDynamicMesh"))
+    points = points_at(serial, "1")
+    n_cells = 4*int(np.prod(CELLS))
+    for n in (2, 4):
+        parallel = case(tmp_path/str(n))
+        parallel.decompose_cells(
+            np.random.default_rng(n).integers(0, n, n_cells))
+        output = parallel.run("moveDynamicMesh", ranks=n)
+        assert selections(output)[0][:2] == expected[0][:2]
+        np.testing.assert_allclose(points_at(parallel, "1"), points, rtol=0,
+                                   atol=1e-15)
+
+
+# --- errors
+
+@pytest.mark.parametrize("surface, phrases", [
+    ('target "nowhere.obj";', ["nowhere.obj", "there is no surface",
+                               "other.obj"]),
+    ('surface "other.obj";', ["'casing'", "0.1", "half a face", "'target'"]),
+    ('target { type searchableSphere; centre (90 0 0); radius 1; }',
+     ["'casing'", "90", "half the size", "units"]),
+    ('target { type searchableSphere; centre (0 0 0); radius 1; }'
+     f" surface {CYLINDER}", ["'surface'", "'target'", "one of them"]),
+    (f"surface {CYLINDER} {STILL}", ["'surface'", "'displacement'", "target"]),
+    ("surface { type searchableCylinder; point1 (0 0 0); point2 (0 0 0);"
+     " radius 1; }", ["point1", "point2", "axis"]),
+    ("surface { type searchableCylinder; point1 (0 0 0); point2 (0 0 1);"
+     " radius -1; }", ["radius", "-1"]),
+    ("surface { type searchableTorus; }", ["searchableTorus",
+                                           "searchableSphere"]),
+])
+def test_a_wrong_surface_is_an_error(tmp_path, surface, phrases):
+    case = casing_case(tmp_path, surface)
+    (case.path/"constant/triSurface").mkdir()
+    (case.path/"constant/triSurface/other.obj").write_text(
+        duct_obj(0.75, 40))
+    before = case.tree()
+    output = case.run("moveDynamicMesh", status=1)
+    for phrase in phrases:
+        assert phrase in output
+    assert case.tree() == before
+
+
+def test_all_ranks_stop_with_the_message_of_a_surface_too_far(tmp_path):
+    case = casing_case(tmp_path, 'target { type searchableSphere;'
+                       ' centre (90 0 0); radius 1; }')
+    case.decompose((2, 1, 1))
+    assert "half the size" in case.run("moveDynamicMesh", ranks=2, status=1)
