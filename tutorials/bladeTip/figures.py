@@ -1,16 +1,17 @@
 """results/figures.md and .csv: what each run keeps, and the mesh it gives."""
 
-import csv
 import re
 from pathlib import Path
 
 import numpy as np
 
-from passage import CASING, PITCH, TIP, blade, patchPoints, polar, readVectors
+from passage import CASING, MESH, PITCH, TIP, blade, polar
+from foamOutput import writeTable
+from meshFiles import patchPoints, readVectors
 
 here = Path(__file__).resolve().parent
 before = readVectors(here / "constant/polyMesh/points")
-points = {name: patchPoints(name)
+points = {name: patchPoints(MESH, name)
           for name in ("left", "right", "casing", "blade")}
 
 
@@ -55,16 +56,4 @@ def row(images):
     }
 
 
-rows = [row("auto"), row("no")]
-(here / "results").mkdir(exist_ok=True)
-with (here / "results/figures.csv").open("w", newline="") as file:
-    writer = csv.DictWriter(file, rows[0])
-    writer.writeheader()
-    writer.writerows(rows)
-with (here / "results/figures.md").open("w") as file:
-    file.write("|" + "|".join(rows[0]) + "|\n" + "|---"*len(rows[0]) + "|\n")
-    for r in rows:
-        file.write("|" + "|".join(
-            v if isinstance(v, str) else f"{v:.2g}" for v in r.values())
-            + "|\n")
-print((here / "results/figures.md").read_text())
+writeTable([row("auto"), row("no")], here / "results/figures")

@@ -1,7 +1,7 @@
 """The passage of a blade row, and what the blade is to do.
 
     passage.py mesh          maps the box that blockMesh made onto the passage
-    passage.py displacement  writes constant/blade.txt, read by dynamicMeshDict
+    passage.py displacement  writes runs/blade.txt, which dynamicMeshDict reads
 
 In the box, X is along the axis in chords, Y the pitch from one periodic side
 to the other, Z the height from hub to casing. The blade is the hole between
@@ -15,6 +15,9 @@ from pathlib import Path
 import numpy as np
 
 here = Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parents[1] / "scripts"))
+from meshFiles import patchPoints, readVectors, replaceVectors  # noqa: E402
+
 MESH = here / "constant/polyMesh"
 
 BLADES = 12
@@ -25,24 +28,6 @@ TIP = HUB + 0.98*(CASING - HUB)
 
 TWIST = np.radians(20)      # of the tip about the blade's own axis
 LEAN = np.radians(6)        # of the tip about the machine's axis
-
-
-def readVectors(file):
-    text = Path(file).read_text()
-    body = re.search(r"\n\d+\s*\n?\((.*)\)", text, re.DOTALL).group(1)
-    return np.array(body.replace("(", " ").replace(")", " ").split(),
-                    float).reshape(-1, 3)
-
-
-def patchPoints(name):
-    """The points of a patch, as labels."""
-    entry = re.search(rf"\b{name}\s*\{{(.*?)\}}",
-                      (MESH / "boundary").read_text(), re.DOTALL).group(1)
-    n, start = (int(re.search(rf"{key}\s+(\d+);", entry).group(1))
-                for key in ("nFaces", "startFace"))
-    faces = re.findall(r"\d+\(([\d ]+)\)", (MESH / "faces").read_text())
-    return np.unique([int(i) for face in faces[start:start + n]
-                      for i in face.split()])
 
 
 def polar(points):
@@ -71,13 +56,7 @@ def passage(box):
 
 
 def mesh():
-    points = passage(readVectors(MESH / "points"))
-    text = (MESH / "points").read_text()
-    head = text[:re.search(r"\n\d+\s*\n?\(", text).start()]
-    (MESH / "points").write_text(
-        head + f"\n{len(points)}\n(\n" + "\n".join(
-            "({!r} {!r} {!r})".format(*map(float, p)) for p in points)
-        + "\n)\n")
+    replaceVectors(MESH / "points", passage(readVectors(MESH / "points")))
     boundary = (MESH / "boundary").read_text()
     (MESH / "boundary").write_text(re.sub(
         r"transform\s+\w+;",
@@ -99,8 +78,9 @@ def blade(points):
 
 
 def displacement():
-    points = readVectors(MESH / "points")[patchPoints("blade")]
-    np.savetxt(here / "constant/blade.txt",
+    points = readVectors(MESH / "points")[patchPoints(MESH, "blade")]
+    (here / "runs").mkdir(exist_ok=True)
+    np.savetxt(here / "runs/blade.txt",
                np.hstack((points, blade(points) - points)), fmt="%.17g")
 
 
