@@ -4,8 +4,7 @@ beside that after one, and the memory of a thousand steps.
     drift.py FILE.md        (with the environment of etc/bashrc)
 
 tutorials/oscillatingCylinder on its coarse mesh, ten steps to a period, each
-motion solver for itself (benchmarks/moveSteps). velocityLaplacian integrates
-the velocity of the cylinder in time, which the others need not.
+motion solver for itself (benchmarks/moveSteps).
 """
 
 import pathlib
@@ -13,40 +12,13 @@ import re
 import sys
 import tempfile
 
-from timeSteps import LINEAR_SOLVER, MOTIONS, header, make_case, replace, run
+from timeSteps import MOTIONS, header, make_case, replace, run
 
 PERIODS = 100
 STEPS = 10
 
-VELOCITY = """
-boundaryField
-{
-    cylinder
-    {
-        type            oscillatingVelocity;
-        amplitude       (0 0.2617993877991494 0);
-        omega           1.0471975511965976;
-        value           uniform (0 0 0);
-    }
-    farField
-    {
-        type            fixedValue;
-        value           uniform (0 0 0);
-    }
-    sides
-    {
-        type            symmetry;
-    }
-}
-"""
-
 DRIFTING = {name: MOTIONS[name] for name in (
     "rbfMotionSolver", "displacementLaplacian")}
-# The condition moves with sin, as the displacement does: so does its integral,
-# a quarter of a period later
-DRIFTING["velocityLaplacian"] = ("fvMotionSolvers", """
-velocityLaplacianCoeffs { diffusivity quadratic inverseDistance (cylinder); }
-""")
 
 
 def measure(path, name):
@@ -72,13 +44,6 @@ def main(file):
                 (r"endTime +\S+;", f"endTime {6*PERIODS};"),
                 (r"writeInterval +1.5", "writeInterval 10000"))
         replace(path/"system/resolution", (r"deltaT +\S+;", "deltaT 0.6;"))
-        replace(path/"system/fvSolution",
-                ("cellDisplacement", '"cell(Displacement|MotionU)"'))
-        text = (path/"0/pointDisplacement").read_text()
-        text = text[:text.index("boundaryField")]
-        (path/"0/pointMotionU").write_text(
-            text.replace("pointDisplacement", "pointMotionU").replace(
-                "[0 1 0 0", "[0 1 -1 0") + VELOCITY)
         for name in DRIFTING:
             last, largest, memory = measure(path, name)
             lines.append(f"| {name} | {last:.2g} | {largest:.2g} | "

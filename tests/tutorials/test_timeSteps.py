@@ -59,3 +59,24 @@ def test_lift_of_the_pitching_aerofoil_is_that_on_a_rigid_mesh(
     assert float(
         forces["morphed"]["rms difference of Cl, of its largest"]) < 0.01
     assert len(selections(case/"runs/morphed/log.pimpleFoam")) == 1
+
+
+def test_a_floating_body_goes_where_it_does_with_a_rigid_body_solver(
+        tmp_path_factory):
+    case = tutorial("floatingBody", tmp_path_factory.mktemp("floating"))
+    run(case, "./Allrun", "-noPictures", "-endTime", "0.15")
+    for row in rows(case/"results/trajectory.csv", "motion").values():
+        assert float(row["largest difference, of that"]) < 0.02
+        assert float(row["largest, rbf"]) > 1e-4
+
+
+def test_a_column_twists_by_180_degrees_and_comes_back(tmp_path_factory):
+    case = tutorial("twistingColumn", tmp_path_factory.mktemp("column"))
+    run(case, "./Allrun", "-noPictures")
+    twist = rows(case/"results/twist.csv", "time")
+    assert float(twist["10"]["twist [deg]"]) == 180
+    for time in ("10", "30"):
+        assert float(twist[time]["largest distance"]) < 0.005
+        assert float(twist[time]["non-orthogonality"]) < 14
+    for time in ("20", "40"):
+        assert float(twist[time]["largest distance"]) < 1e-14
