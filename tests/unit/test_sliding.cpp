@@ -408,3 +408,95 @@ TEST(Sliding, pointsOnASphereFollowALargeTurn)
         1.01*result.tolerance
     );
 }
+
+
+namespace
+{
+
+// The rib of Mastrippolito et al. (2019), section 5, in a channel, and a line
+// around it: corners are displaced, points between them slide on the flanks
+struct Rib
+{
+    ControlPoints target;    // along the normals of the displaced flanks
+    ControlPoints initial;   // along those at rest, as if nothing moved
+
+    void line(const std::vector<Vector3>& x, const std::vector<Vector3>& d)
+    {
+        const double distance = 0.0024;
+        for (std::size_t i = 0; i < x.size(); ++i)
+        {
+            target.push_back(ControlPoint::prescribed(x[i], d[i]));
+            if (i + 1 == x.size())
+            {
+                break;
+            }
+            const Vector3 before = x[i + 1] - x[i];
+            const Vector3 after = before + d[i + 1] - d[i];
+            const int n = int(before.norm()/distance);
+            for (int k = 1; k < n; ++k)
+            {
+                const double t = double(k)/n;
+                target.push_back(ControlPoint::sliding
+                (
+                    x[i] + t*before,
+                    {Vector3(-after[1], after[0], 0)},
+                    (1 - t)*d[i] + t*d[i + 1]
+                ));
+                initial.push_back(ControlPoint::sliding
+                (
+                    x[i] + t*before, {Vector3(-before[1], before[0], 0)}
+                ));
+            }
+        }
+    }
+
+    Rib()
+    {
+        const Vector3 o = Vector3::Zero();
+        line
+        (
+            {{-0.9, 0, 0}, {-0.435, 0, 0}, {-0.305, 0.15, 0}, {0.305, 0.15, 0},
+             {0.435, 0, 0}, {0.9, 0, 0}, {0.9, 1, 0}, {-0.9, 1, 0}},
+            {o, {0.035, 0, 0}, {0.07, 0.1, 0}, {-0.07, 0.1, 0},
+             {-0.035, 0, 0}, o, o, o}
+        );
+        line
+        (
+            {{-0.45326516, 0.04, 0}, {-0.32326516, 0.19, 0},
+             {0.32326516, 0.19, 0}, {0.45326516, 0.04, 0}},
+            {{0.03173854, 0, 0}, {0.06673854, 0.1, 0}, {-0.06673854, 0.1, 0},
+             {-0.03173854, 0, 0}}
+        );
+        for (const ControlPoint& p : target)
+        {
+            if (!p.slides())
+            {
+                initial.push_back(p);
+            }
+        }
+    }
+};
+
+} // namespace
+
+
+TEST(Sliding, normalsOfTheDisplacedFlanksOfARibTakeFewerPoints)
+{
+    SelectionSettings settings;
+    settings.tolerance = 1e-5;
+    const Kernel kernel(KernelType::wendlandC2, 0.488262);
+    const Rib rib;
+    SerialCommunicator serial;
+    GreedySelection target(kernel, Polynomial::none, settings);
+    GreedySelection initial(kernel, Polynomial::none, settings);
+    const SelectionResult few = target.select(rib.target, serial);
+    const SelectionResult many = initial.select(rib.initial, serial);
+    std::printf
+    (
+        "rib, %ld points: %ld along the normals of the displaced flanks, %ld "
+        "along those at rest\n",
+        few.candidates, few.selected, many.selected
+    );
+    EXPECT_TRUE(few.converged());
+    EXPECT_LT(2*few.selected, many.selected);
+}
