@@ -380,3 +380,34 @@ def test_cells_of_any_shape_break_where_their_volume_ends(tmp_path, make):
     case.run("morphMesh", "-time", 1)
     record = motion(case, folder="morphMesh")
     assert float(record["attainable"]) == pytest.approx(2/3, rel=1e-5)
+
+
+# --- where OpenFOAM's criterion decides
+
+
+def arrowhead(path, far, extra=LIMIT):
+    """One prism whose fourth corner goes from (0.3 0.3) towards (far far). It
+    is within the average of its corners: tetrahedra there are inverted."""
+    case = rbf_case(path, coeffs=extra + "selection all;" + groups(
+        corner=f"type moving; points ((0.3 0.3 0) (0.3 0.3 1)); displacement"
+               f" {{ type uniform; value ({far - 0.3} {far - 0.3} 0); }}",
+        rest="type fixed; patches (xMin yMin);"), cells=(1, 1, 1))
+    x = reference(case)
+    x[(x[:, 0] > 0.5) & (x[:, 1] > 0.5), :2] = 0.3
+    rows = "\n".join("({!r} {!r} {!r})".format(*map(float, p)) for p in x)
+    case.write("constant/polyMesh/points", "vectorField",
+               f"{len(x)}\n(\n{rows}\n)")
+    return case
+
+
+def test_faces_decide_where_tetrahedra_were_inverted_before(tmp_path):
+    case = arrowhead(tmp_path/"far", -0.3)
+    assert "Mesh OK" in case.run("checkMesh")
+    _, _, _, criterion = limited(case.run("morphMesh", "-time", 1))
+    assert criterion == "facesAndCells"
+    valid = float(motion(case, folder="morphMesh")["attainable"])
+
+    # As a search by motions that are refused or not finds
+    for share, status in ((1 - 1e-5, 0), (1 + 1e-5, 1)):
+        near = arrowhead(tmp_path/str(status), 0.3 - 0.6*valid*share, "")
+        near.run("morphMesh", "-time", 1, status=status)
