@@ -30,6 +30,10 @@ namespace Foam
 // A tetrahedron is flat if it is smaller than this, in the largest of its cell
 static const scalar flat = 1e-3;
 
+// Roots that are further apart than this are in an order that round-off cannot
+// change
+static const scalar clearance = 1e-9;
+
 
 //- The mean of the points, whatever their order
 template<class Labels>
@@ -142,7 +146,13 @@ Foam::scalar Foam::movingCells::positiveUpTo(const label celli) const
     scalar fraction = morph::noRoot;
     for (const morph::Cubic& volume : volumes_)
     {
-        if (!(volume[0] <= flat*largest))
+        // Beyond the first root so far by more than round-off, so that the
+        // order of the tetrahedra leaves no trace
+        const bool later =
+            fraction <= 1
+         && morph::surelyPositive(volume, (1 + clearance)*fraction);
+
+        if (!later && !(volume[0] <= flat*largest))
         {
             fraction = min(fraction, morph::positiveUpTo(volume));
         }

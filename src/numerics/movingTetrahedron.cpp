@@ -45,6 +45,16 @@ double value(const Cubic& p, const double t)
 }
 
 
+bool surelyPositive(const Cubic& p, const double end)
+{
+    const double start = 1 - end;
+    const double p01 = start*p[0] + end*p[1];
+    const double p12 = start*p[1] + end*p[2];
+    const double p012 = start*p01 + end*p12;
+    return p[0] > 0 && p01 > 0 && p012 > 0 && value(p, end) > 0;
+}
+
+
 // The quotient, or 1 if it is not in (0, 1): without dividing by zero, which
 // OpenFOAM traps
 static double inside(const double numerator, const double denominator)

@@ -39,6 +39,11 @@ Cubic movingVolume
 );
 
 
+// Do the Bernstein coefficients on [0, end] alone tell that the cubic is positive
+// there? That needs no root
+bool surelyPositive(const Cubic& p, double end);
+
+
 // The cubic at t (de Casteljau)
 double value(const Cubic& p, double t);
 

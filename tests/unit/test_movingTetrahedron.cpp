@@ -202,6 +202,29 @@ TEST(MovingTetrahedron, allIsPositiveUpToTheRoot)
 }
 
 
+TEST(MovingTetrahedron, whatIsSurelyPositiveIsPositiveUpToThere)
+{
+    std::mt19937 generator(5);
+    int sure = 0;
+    for (int n = 0; n < 3000; ++n)
+    {
+        const Cubic p = random(generator, 1.5).cubic();
+        const double root = std::min(1.0, positiveUpTo(p));
+        EXPECT_FALSE(surelyPositive(p, std::min(1.0, 1.01*root)) && root < 0.9);
+        sure += surelyPositive(p, 0.5*root);
+        if (surelyPositive(p, 0.5*root))
+        {
+            for (int i = 0; i <= 20; ++i)
+            {
+                EXPECT_GT(value(p, 0.5*root*i/20), 0);
+            }
+        }
+    }
+    // It is of use
+    EXPECT_GT(sure, 2000);
+}
+
+
 // Heights that change alone: the volume is linear, the root known
 TEST(MovingTetrahedron, linearVolumeHasItsExactRoot)
 {
