@@ -26,6 +26,13 @@ def seconds(study, strategy, design):
     return float(re.findall(r"ExecutionTime = (\S+) s", log)[-1])
 
 
+def quality(study, strategy, design):
+    """Largest non-orthogonality [deg] and skewness, as checkMesh says."""
+    log = (Path(study)/strategy/design/"log.quality").read_text()
+    return (float(re.search(r"non-orthogonality Max: (\S+)", log)[1]),
+            float(re.search(r"[Mm]ax skewness = ([\d.e+-]+)", log)[1]))
+
+
 def differs(new, old):
     return 100*(float(new)/float(old) - 1)
 
@@ -35,6 +42,8 @@ def compare(study):
     rows = []
     for design in sorted(set(morph) & set(remesh)):
         a, b = morph[design], remesh[design]
+        here, there = (quality(study, name, design)
+                       for name in ("morph", "remesh"))
         rows.append({
             "design": design, **{x: float(a[x]) for x in ("h", "e", "E")},
             "iterations": int(a["iterations"]),
@@ -43,6 +52,8 @@ def compare(study):
             "uniform [s]": seconds(study, "remesh", design),
             "Nu": float(a["Nu"]), "Nu differs [%]": differs(a["Nu"], b["Nu"]),
             "Cf": float(a["Cf"]), "Cf differs [%]": differs(a["Cf"], b["Cf"]),
+            "non-orth. [deg]": here[0], "remeshed [deg]": there[0],
+            "skewness": here[1], "remeshed": there[1],
         })
     if not rows:
         sys.exit("Error: no design is done in both ways")
