@@ -71,7 +71,8 @@ def test_regions_meet_after_they_moved(tmp_path, application):
         at = at_shared(case, region)
         sides.append(moved(case, region)[at][np.lexsort(
             np.round(x[at], 6).T)])
-    np.testing.assert_array_equal(*sides)
+    # The meshes themselves differ by so much there
+    np.testing.assert_allclose(*sides, rtol=0, atol=4.5e-16)
     assert np.ptp(sides[0][:, 2]) > 0.1
     for region in REGIONS:
         assert f"rbfMotionSolver({region}): 4 steps" in output
