@@ -91,25 +91,24 @@ Matrix ImageSystem::block
     const Columns da = directions(a), db = directions(b);
 
     Matrix G = Matrix::Zero(rows.back(), columns.back());
+    Eigen::VectorXd factor(rows.back());
     for (const RigidMap& map : images_.maps())
     {
         const Matrix phi = kernelMatrix(kernel_, xa, map(xb));
-        const Columns rotated = db*map.R.transpose();
+        const Matrix cosines = da*(db*map.R.transpose()).transpose();
         for (std::size_t j = 0; j < b.size(); ++j)
         {
+            if (phi.col(j).isZero(0))
+            {
+                continue;
+            }
             for (std::size_t i = 0; i < a.size(); ++i)
             {
-                if (phi(i, j) == 0)
-                {
-                    continue;
-                }
-                for (Index q = columns[j]; q < columns[j + 1]; ++q)
-                {
-                    for (Index p = rows[i]; p < rows[i + 1]; ++p)
-                    {
-                        G(p, q) += phi(i, j)*da.row(p).dot(rotated.row(q));
-                    }
-                }
+                factor.segment(rows[i], a[i].k).setConstant(phi(i, j));
+            }
+            for (Index q = columns[j]; q < columns[j + 1]; ++q)
+            {
+                G.col(q).array() += factor.array()*cosines.col(q).array();
             }
         }
     }

@@ -241,6 +241,7 @@ void Foam::rbfMotionSolver::makeGeometry()
         }
     }
     evaluated_.transfer(labels);
+    span_ = boundBox(points0(), true).mag();
     cloud_.reset(new morph::PointCloud(asVectors(positions)));
     if (settings_.surfaceCorrection)
     {
@@ -274,6 +275,24 @@ Foam::scalar Foam::rbfMotionSolver::neededSupportRadius() const
         settings_.supportRadiusFactor*largest,
         moving.valid() ? settings_.supportRadiusSpans*moving.mag() : 0
     );
+}
+
+
+bool Foam::rbfMotionSolver::moves() const
+{
+    if (selection_ || !restored_.empty())
+    {
+        return true;
+    }
+
+    // A body that is about to start moves by round-off, a pattern not worth
+    // control points
+    scalar largest = 0;
+    for (const morph::ControlPoint& p : controlPoints_->candidates())
+    {
+        largest = max(largest, p.g().norm());
+    }
+    return returnReduce(largest, maxOp<scalar>()) > SMALL*span_;
 }
 
 
@@ -713,7 +732,7 @@ void Foam::rbfMotionSolver::solve()
     }
     summary_.add(motionSummary::conditions);
 
-    if (supportRadius_ > 0)
+    if (supportRadius_ > 0 && moves())
     {
         pointDisplacement_.primitiveFieldRef() = moved(first);
     }

@@ -83,7 +83,12 @@ void Foam::selectionReport::warnOfTolerance
 {
     const bool incomplete =
         result.rejected > 0 || result.renewals > 0 || !settings_.selection.all;
-    if (!result.converged() && incomplete)
+
+    // Where points are on a surface is known to round-off
+    const bool onSurface =
+        result.renewals > 0
+     && result.largestError < 1e-12*mesh_.bounds().mag();
+    if (!result.converged() && incomplete && !onSurface)
     {
         WarningInFunction
             << "The largest error, " << result.largestError

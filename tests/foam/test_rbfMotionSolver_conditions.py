@@ -67,6 +67,10 @@ CONDITIONS = {
         " solidBodyMotionFunction rotatingMotion; rotatingMotionCoeffs"
         " { origin (0.5 0.4 1); axis (0 1 2); omega 0.2; }",
         lambda x: rotation(x, 0.2*TIME, [0.5, 0.4, 1], [0, 1, 2])),
+    "waveDisplacement": (
+        f"waveDisplacement; amplitude (0 0 0.05); omega {OMEGA};"
+        " waveNumber (4 1 0); value uniform (0 0 0);",
+        lambda x: np.outer(np.cos(OMEGA*TIME - x @ [4, 1, 0]), [0, 0, 0.05])),
     "timeVaryingMappedFixedValue": (
         "timeVaryingMappedFixedValue; mapMethod nearest;",
         mapped),

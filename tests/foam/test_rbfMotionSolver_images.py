@@ -11,7 +11,7 @@ import re
 import numpy as np
 import pytest
 
-from boxCase import words
+from boxCase import words, write_control
 from rbfCase import (CUBE, groups, move, rbf_case, reference, selections,
                      side)
 
@@ -212,8 +212,8 @@ BLADE = groups(
     casing="type fixed; patches (xMax);")
 
 
-@pytest.mark.parametrize("kind, match", [("cyclic", ""), ("cyclicAMI", "")])
-def test_rotational_pairs_match(tmp_path, kind, match):
+@pytest.mark.parametrize("kind", ["cyclic", "cyclicAMI"])
+def test_rotational_pairs_match(tmp_path, kind):
     patches = {**CUBE, **cyclic("yMin", "yMax", kind, ROTATIONAL)}
     case = rbf_case(tmp_path, coeffs=LOOSE + BLADE, patches=patches,
                     corners=sector(), cells=(5, 5, 5))
@@ -244,8 +244,42 @@ def test_rotational_pairs_move_the_same_on_any_number_of_ranks(tmp_path, kind):
         np.testing.assert_array_equal(other, points[0])
 
 
-def test_an_ami_pair_of_unlike_meshes_stays_on_itself(tmp_path):
-    # The sides are warped alike, which their meshes show
+def test_sub_steps_keep_pairs_and_planes(tmp_path):
+    patches = {**CUBE, **cyclic("yMin", "yMax", "cyclic", ROTATIONAL),
+               "zMin": "symmetryPlane"}
+    case = rbf_case(tmp_path, coeffs="subSteps 3;" + LOOSE + BLADE,
+                    patches=patches, corners=sector(), cells=(5, 5, 5))
+    before = reference(case)
+    output = case.run("moveDynamicMesh")
+    assert "moved in 3 sub-steps" in output
+    after = case.points("1/polyMesh/points")
+    assert paired(before, after, "yMin", "yMax", turn=turned(SECTOR),
+                  on=on_ray) < 1e-13
+    on = side(before, "zMin")
+    np.testing.assert_allclose(after[on, 2], 0, rtol=0, atol=1e-15)
+    assert np.abs(after - before)[on].max() > 0.02
+
+
+@pytest.mark.parametrize("kind", ["cyclic", "cyclicAMI"])
+def test_a_restart_with_images_continues_to_the_last_bit(tmp_path, kind):
+    patches = {**CUBE, **cyclic("yMin", "yMax", kind, ROTATIONAL),
+               "zMin": "symmetryPlane"}
+    points = []
+    for stops in ([2], [1, 2]):
+        case = rbf_case(tmp_path/str(len(stops)), coeffs=LOOSE + groups(
+            hub="type moving; patches (xMin);" + solid((0, 0, 1), 0.1),
+            casing="type fixed; patches (xMax);"), patches=patches,
+            corners=sector(), cells=(5, 5, 5))
+        for end in stops:
+            write_control(case, end=end, deltaT=0.5, startFrom="latestTime",
+                          writeInterval=2)
+            assert images_in(case.run("moveDynamicMesh"))
+        points.append(case.points("2/polyMesh/points"))
+    assert np.abs(points[0] - reference(case)).max() > 0.05
+    np.testing.assert_array_equal(points[1], points[0])
+
+
+def test_a_translational_ami_pair_stays_on_itself(tmp_path):
     patches = {**CUBE, **cyclic("xMin", "xMax", "cyclicAMI",
                                 "transform translational;"
                                 " separationVector (1 0 0);")}
@@ -326,7 +360,7 @@ def test_where_images_cannot_be_the_log_says_why_and_yes_is_an_error(
     coeffs = extra + radius + groups(body=body(0.9, 0.5, 0.5), ends=ENDS)
     case = rbf_case(tmp_path, coeffs=coeffs, patches=patches)
     output = case.run("moveDynamicMesh")
-    assert f"no images: " in output and why in output
+    assert "no images: " in output and why in output
     before, after = reference(case), case.points("1/polyMesh/points")
     assert paired(before, after, "xMin", "xMax", period=(1, 0, 0)) < 1e-14
 

@@ -13,6 +13,7 @@ import pytest
 
 from boxCase import words, write_control
 from rbfCase import groups, rbf_case, reference, selections, side
+from test_rbfMotionSolver_conditions import CONDITIONS, SLIPPING
 
 
 def read_binary(path, kind=float, components=3):
@@ -153,6 +154,38 @@ def test_any_number_of_ranks_may_continue(tmp_path):
         shutil.rmtree(rank)
     advance(case, 2)
     np.testing.assert_array_equal(points_at(case, 2), expected)
+
+
+@pytest.mark.parametrize("condition", [
+    "oscillatingDisplacement", "angularOscillatingDisplacement",
+    "solidBodyMotionDisplacement", "waveDisplacement"])
+def test_conditions_restart_to_the_last_bit(tmp_path, condition):
+    results = []
+    for name, stops in (("whole", [2]), ("parts", [1, 2])):
+        case = rbf_case(tmp_path/name, {
+            **SLIPPING, "zMax": CONDITIONS[condition][0]},
+            coeffs="greedy { tolerance 1e-2; }")
+        write_control(case, end=2, deltaT=0.25, format="binary",
+                      startFrom="latestTime")
+        # decomposePar of v1912 cannot copy solidBodyMotionDisplacement
+        ranks = 1 if condition == "solidBodyMotionDisplacement" else 2
+        if ranks == 2:
+            case.decompose((1, 2, 1))
+        for stop in stops:
+            advance(case, stop, ranks=ranks)
+        results.append(points_at(case, 2))
+    np.testing.assert_array_equal(*results)
+    assert np.abs(results[0] - reference(case)).max() > 0.02
+
+
+def test_a_motion_of_round_off_selects_no_control_points(tmp_path):
+    # As of a body of six degrees of freedom in its first step
+    case = turning_case(tmp_path, displacement=(
+        "type uniform; value table ((0 (0 0 0)) (0.25 (0 0 5e-17))"
+        " (0.5 (0 0 0.1)) (3 (0 0 0.1)));"))
+    output = advance(case, 1)
+    assert len(selections(output)) == 1
+    assert selections(output)[0][3] == pytest.approx(1e-2*0.1)
 
 
 def test_without_its_file_a_restart_selects_anew(tmp_path):

@@ -15,19 +15,20 @@ License
     You should have received a copy of the GNU General Public License
     along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
 
-
 Application
     moveRegions
 
 Description
-    Test of motion solvers of several meshes in one process: moves the regions
-    given as arguments by turns, through all times, and writes their points.
+    Test of several regions with a motion solver each: moves the meshes named
+    on the command line through the time steps, one after the other, and writes
+    them.
 
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
 #include "fvMesh.H"
 #include "motionSolver.H"
+#include "PtrList.H"
 #include "Time.H"
 
 using namespace Foam;
@@ -36,38 +37,40 @@ using namespace Foam;
 
 int main(int argc, char *argv[])
 {
-    argList::noMandatoryArgs();
-    argList::addArgument("first region");
-    argList::addArgument("second region");
+    argList::addArgument("regions", "list of regions");
     argList args(argc, argv);
     Time runTime(Time::controlDictName, args);
 
-    PtrList<fvMesh> meshes;
-    PtrList<motionSolver> solvers;
-    for (label i = 1; i <= 2; ++i)
+    const wordList regions(args.get<wordList>(1));
+    PtrList<fvMesh> meshes(regions.size());
+    PtrList<motionSolver> solvers(regions.size());
+    forAll(regions, i)
     {
-        meshes.append
+        meshes.set
         (
+            i,
             new fvMesh
             (
                 IOobject
                 (
-                    args[i], runTime.timeName(), runTime, IOobject::MUST_READ
+                    regions[i],
+                    runTime.timeName(),
+                    runTime,
+                    IOobject::MUST_READ
                 )
             )
         );
-        solvers.append(motionSolver::New(meshes.last()).ptr());
+        solvers.set(i, motionSolver::New(meshes[i]));
     }
 
     while (runTime.loop())
     {
-        forAll(meshes, i)
+        forAll(regions, i)
         {
             meshes[i].movePoints(solvers[i].newPoints());
         }
         runTime.write();
     }
-    Info<< "End" << endl;
     return 0;
 }
 
