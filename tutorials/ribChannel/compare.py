@@ -1,4 +1,4 @@
-"""Morphed restarts beside uniform starts on new meshes of the same designs.
+"""Morphed restarts beside uniform starts on the same and on new meshes.
 
     compare.py STUDY -> results/restart
 
@@ -38,31 +38,44 @@ def differs(new, old):
 
 
 def compare(study):
-    morph, remesh = results(study, "morph"), results(study, "remesh")
+    """A row for each design that is done by restart and on a new mesh; the
+    uniform start on the morphed mesh may have diverged."""
+    morph, uniform, remesh = (
+        results(study, name) for name in ("morph", "uniform", "remesh"))
     rows = []
     for design in sorted(set(morph) & set(remesh)):
-        a, b = morph[design], remesh[design]
+        a, b, c = (found.get(design) for found in (morph, uniform, remesh))
         here, there = (quality(study, name, design)
                        for name in ("morph", "remesh"))
         rows.append({
             "design": design, **{x: float(a[x]) for x in ("h", "e", "E")},
             "iterations": int(a["iterations"]),
-            "uniform": int(b["iterations"]),
+            "uniform": int(b["iterations"]) if b else "",
+            "remeshed": int(c["iterations"]),
             "time [s]": seconds(study, "morph", design),
-            "uniform [s]": seconds(study, "remesh", design),
-            "Nu": float(a["Nu"]), "Nu differs [%]": differs(a["Nu"], b["Nu"]),
-            "Cf": float(a["Cf"]), "Cf differs [%]": differs(a["Cf"], b["Cf"]),
-            "non-orth. [deg]": here[0], "remeshed [deg]": there[0],
-            "skewness": here[1], "remeshed": there[1],
+            "uniform [s]": seconds(study, "uniform", design) if b else "",
+            "remeshed [s]": seconds(study, "remesh", design),
+            "Nu": float(a["Nu"]),
+            "Nu uniform [%]": differs(b["Nu"], a["Nu"]) if b else "",
+            "Nu remeshed [%]": differs(c["Nu"], a["Nu"]),
+            "Cf": float(a["Cf"]),
+            "Cf uniform [%]": differs(b["Cf"], a["Cf"]) if b else "",
+            "Cf remeshed [%]": differs(c["Cf"], a["Cf"]),
+            "non-orth. [deg]": here[0], "non-orth. remeshed": there[0],
+            "skewness": here[1], "skewness remeshed": there[1],
         })
     if not rows:
         sys.exit("Error: no design is done in both ways")
-    mean = {name: sum(row[name] for row in rows)/len(rows)
-            for name in list(rows[0])[4:]}
-    for name in ("Nu differs [%]", "Cf differs [%]"):
-        mean[name] = sum(abs(row[name]) for row in rows)/len(rows)
-    rows.append({"design": "mean", "h": "", "e": "", "E": "", **mean})
-    return rows
+    return rows + [{"design": "mean", "h": "", "e": "", "E": "",
+                    **{name: mean(rows, name) for name in list(rows[0])[4:]}}]
+
+
+def mean(rows, name):
+    """Of magnitudes; of the designs for which all starts are there, so that
+    means of one row are of the same designs."""
+    complete = [row for row in rows if row["uniform"] != ""] or rows
+    values = [abs(row[name]) for row in complete if row[name] != ""]
+    return sum(values)/len(values) if values else ""
 
 
 if __name__ == "__main__":
