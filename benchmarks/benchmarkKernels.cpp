@@ -8,9 +8,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 // As the loops measured (kernelSum.cpp)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -145,9 +147,23 @@ void kernelSum(benchmark::State& state, KernelType type)
     const double* const cs[3] = {&c(0, 0), &c(0, 1), &c(0, 2)};
     const double* const ws[3] = {&w(0, 0), &w(0, 1), &w(0, 2)};
     double* const ss[3] = {&s(0, 0), &s(0, 1), &s(0, 2)};
+    std::vector<CentreGroup> groups;
+    const Index nRooted = nCentres*rootsOfGroup/groupSize;
+    CentreGroup group = {0, 0, nRooted, nRooted};
+    while (group.end < nRooted)
+    {
+        group.begin = group.end;
+        group.end = std::min(group.end + rootsOfGroup, nRooted);
+        group.rootlessBegin = group.rootlessEnd;
+        group.rootlessEnd = std::min
+        (
+            group.rootlessEnd + groupSize - rootsOfGroup, nCentres
+        );
+        groups.push_back(group);
+    }
     for (auto _ : state)
     {
-        addKernelSum(type, xs, n, cs, ws, nCentres, ss);
+        addKernelSum(type, xs, n, cs, ws, groups, ss);
         benchmark::DoNotOptimize(s.data());
     }
     countPairs(state, double(n)*nCentres);

@@ -2,6 +2,7 @@
 
 #include "multiVersion.hpp"
 #include "radialFunctions.hpp"
+#include "wendlandSum.hpp"
 
 namespace morph
 {
@@ -11,7 +12,7 @@ namespace
 
 template<class Formula>
 inline __attribute__((always_inline))
-void addBlock
+void addTerms
 (
     Formula,
     const double* __restrict__ x,
@@ -19,16 +20,14 @@ void addBlock
     const double* __restrict__ z,
     const double* const centres[3],
     const double* const weights[3],
-    Index nCentres,
-    double* __restrict__ sumX,
-    double* __restrict__ sumY,
-    double* __restrict__ sumZ
+    Index begin,
+    Index end,
+    double (&partX)[blockSize],
+    double (&partY)[blockSize],
+    double (&partZ)[blockSize]
 )
 {
-    double partX[blockSize] = {};
-    double partY[blockSize] = {};
-    double partZ[blockSize] = {};
-    for (Index j = 0; j < nCentres; ++j)
+    for (Index j = begin; j < end; ++j)
     {
         const double cx = centres[0][j];
         const double cy = centres[1][j];
@@ -48,6 +47,38 @@ void addBlock
             partZ[i] += phi*wz;
         }
     }
+}
+
+
+template<class Formula>
+inline __attribute__((always_inline))
+void addBlock
+(
+    Formula formula,
+    const double* x,
+    const double* y,
+    const double* z,
+    const double* const centres[3],
+    const double* const weights[3],
+    const CentreGroup& group,
+    double* __restrict__ sumX,
+    double* __restrict__ sumY,
+    double* __restrict__ sumZ
+)
+{
+    double partX[blockSize] = {};
+    double partY[blockSize] = {};
+    double partZ[blockSize] = {};
+    addTerms
+    (
+        formula, x, y, z, centres, weights,
+        group.begin, group.end, partX, partY, partZ
+    );
+    addTerms
+    (
+        formula, x, y, z, centres, weights,
+        group.rootlessBegin, group.rootlessEnd, partX, partY, partZ
+    );
     for (Index i = 0; i < blockSize; ++i)
     {
         sumX[i] += partX[i];
@@ -85,14 +116,14 @@ void fillColumn
 
 
 MORPH_MULTIVERSION
-void addKernelSum
+static void addGroup
 (
     KernelType type,
     const double* const points[3],
     Index nPoints,
     const double* const centres[3],
     const double* const weights[3],
-    Index nCentres,
+    const CentreGroup& group,
     double* const sums[3]
 )
 {
@@ -111,7 +142,7 @@ void addKernelSum
                     points[2] + i,
                     centres,
                     weights,
-                    nCentres,
+                    group,
                     sums[0] + i,
                     sums[1] + i,
                     sums[2] + i
@@ -119,6 +150,32 @@ void addKernelSum
             }
         }
     );
+}
+
+
+void addKernelSum
+(
+    KernelType type,
+    const double* const points[3],
+    Index nPoints,
+    const double* const centres[3],
+    const double* const weights[3],
+    const std::vector<CentreGroup>& groups,
+    double* const sums[3]
+)
+{
+    if (hasWendlandSum(type))
+    {
+        addWendlandSum
+        (
+            type, points, nPoints, centres, weights, groups, sums
+        );
+        return;
+    }
+    for (const CentreGroup& group : groups)
+    {
+        addGroup(type, points, nPoints, centres, weights, group, sums);
+    }
 }
 
 

@@ -6,6 +6,8 @@
 #include "arrays.hpp"
 #include "kernel.hpp"
 
+#include <vector>
+
 namespace morph
 {
 
@@ -14,14 +16,38 @@ namespace morph
 // independent of how points are distributed.
 constexpr Index blockSize = 32;
 
-// Adds sum_j phi(|x_i - c_j|/r0) w_j, summed apart, to s_i for the points i of
-// whole blocks. Many centres are best given in groups: where weights cancel,
-// most additions are then of numbers smaller than the largest partial sum, and
-// the round-off is half.
+// Centres that are summed apart from those of other groups. Where weights
+// cancel, most additions are then of numbers smaller than the largest partial
+// sum, and the round-off is half.
+struct CentreGroup
+{
+    // Those begin <= j < end ...
+    Index begin;
+    Index end;
+
+    // ... and others, whose distances may be made without the square root
+    // (wendlandSum.hpp)
+    Index rootlessBegin;
+    Index rootlessEnd;
+
+    bool empty() const
+    {
+        return begin == end && rootlessBegin == rootlessEnd;
+    }
+};
+
+// Best sizes: round-off against the time of changing groups, and one in four
+// without a root
+constexpr Index groupSize = 64;
+constexpr Index rootsOfGroup = 48;
+
+// Adds sum_j phi(|x_i - c_j|/r0) w_j to s_i for the points i of whole blocks,
+// over the centres j of some groups, each of which begins (both its ranges)
+// where the one before ends.
 //
 // points, sums: n x 3 columns (n a multiple of blockSize) given by the pointers
-// to their columns; centres, weights: m x 3 likewise. Positions are in units of
-// the support radius.
+// to their columns; centres, weights: likewise. Positions are in units of the
+// support radius.
 void addKernelSum
 (
     KernelType type,
@@ -29,7 +55,7 @@ void addKernelSum
     Index nPoints,
     const double* const centres[3],
     const double* const weights[3],
-    Index nCentres,
+    const std::vector<CentreGroup>& groups,
     double* const sums[3]
 );
 

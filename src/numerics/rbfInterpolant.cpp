@@ -2,15 +2,20 @@
 
 #include "kernelSum.hpp"
 
+#include <algorithm>
+
 namespace morph
 {
 
 namespace
 {
 
-// Centres whose sum is formed apart from that of the others (kernelSum.hpp).
-// Those left out of a group do not change the groups
-constexpr Index groupSize = 64;
+// Which of the centres are without a root (kernelSum.hpp): by their place among
+// all, so that those left out as out of reach change nothing
+bool rootless(Index j)
+{
+    return j%groupSize >= rootsOfGroup;
+}
 
 } // namespace
 
@@ -66,27 +71,40 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
     const double reach2 = 1 + 1e-12;
 
     Columns c(n, 3), w(n, 3), x, sums;
-    std::vector<Index> groupEnds;   // in c and w
+    std::vector<CentreGroup> groups;   // in c and w
+
+    // Those without a root stand behind all others
+    const Index nRooted =
+        n/groupSize*rootsOfGroup + std::min(n%groupSize, rootsOfGroup);
     for (const PointCloud::Leaf& leaf : points.leaves())
     {
         PointCloud::Leaf box = leaf;
         box.low = scale*(leaf.low - from.transpose());
         box.high = scale*(leaf.high - from.transpose());
 
-        Index m = 0;
-        groupEnds.clear();
+        groups.clear();
+        CentreGroup group = {0, 0, nRooted, nRooted};
         for (Index j = 0; j < n; ++j)
         {
             const Vector3 centre = scaled.row(j).transpose();
             if (!kernel_.compact() || box.distance2(centre) < reach2)
             {
+                Index& m = rootless(j) ? group.rootlessEnd : group.end;
                 c.row(m) = scaled.row(j);
                 w.row(m) = weights_.row(j);
                 ++m;
             }
             if ((j + 1)%groupSize == 0 || j + 1 == n)
             {
-                groupEnds.push_back(m);
+                if (!group.empty())
+                {
+                    groups.push_back(group);
+                }
+                group =
+                {
+                    group.end, group.end,
+                    group.rootlessEnd, group.rootlessEnd
+                };
             }
         }
 
@@ -99,24 +117,11 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
             {x.col(0).data(), x.col(1).data(), x.col(2).data()};
         double* const ss[3] =
             {sums.col(0).data(), sums.col(1).data(), sums.col(2).data()};
-        Index begin = 0;
-        for (const Index end : groupEnds)
-        {
-            const double* const cs[3] =
-            {
-                c.col(0).data() + begin,
-                c.col(1).data() + begin,
-                c.col(2).data() + begin
-            };
-            const double* const ws[3] =
-            {
-                w.col(0).data() + begin,
-                w.col(1).data() + begin,
-                w.col(2).data() + begin
-            };
-            addKernelSum(kernel_.type(), xs, size, cs, ws, end - begin, ss);
-            begin = end;
-        }
+        const double* const cs[3] =
+            {c.col(0).data(), c.col(1).data(), c.col(2).data()};
+        const double* const ws[3] =
+            {w.col(0).data(), w.col(1).data(), w.col(2).data()};
+        addKernelSum(kernel_.type(), xs, size, cs, ws, groups, ss);
 
         if (polynomial_)
         {

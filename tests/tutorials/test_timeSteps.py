@@ -1,8 +1,9 @@
 """Tutorials that move the mesh in each time step, in short form and in
 temporary copies.
 
-Source of truth: the same case with a mesh that moves as a whole, for which no
-motion solver has to find where the points go.
+Sources of truth: the same case with a mesh that moves as a whole, for which no
+motion solver has to find where the points go; OpenFOAM's own solver of a rigid
+body; the formula of the twist.
 """
 
 import csv
@@ -80,3 +81,13 @@ def test_a_column_twists_by_180_degrees_and_comes_back(tmp_path_factory):
         assert float(twist[time]["non-orthogonality"]) < 14
     for time in ("20", "40"):
         assert float(twist[time]["largest distance"]) < 1e-14
+
+
+def test_a_wing_on_springs_pitches_as_with_a_rigid_body_solver(
+        tmp_path_factory):
+    case = tutorial("wingMotion", tmp_path_factory.mktemp("wing"))
+    run(case, "./Allrun", "-noPictures", "-steadySteps", "50", "-endTime",
+        "0.0002")
+    motion = rows(case/"results/trajectory.csv", "motion")
+    assert float(motion["pitch [deg]"]["largest difference, of that"]) < 0.01
+    assert float(motion["pitch [deg]"]["largest, rbf"]) > 0.003

@@ -94,6 +94,43 @@ TEST(RbfInterpolant, agreesWithTheSumInLongDouble)
 }
 
 
+// Whatever its place among the centres, on which the way its distances are made
+// may depend. With weights of other centres zero the sum is one term
+TEST(RbfInterpolant, everyCentreCountsByTheFormulaAndOneAtItself)
+{
+    for (const KernelType type : allKernels())
+    {
+        const Kernel kernel(type, 1);
+        if (!kernel.compact())
+        {
+            continue;
+        }
+        Random random(5);
+        RbfInterpolant s = randomInterpolant(random, type, 1, 67);
+        const Columns centres = s.centres();
+        for (Index j = 0; j < centres.rows(); ++j)
+        {
+            Columns weights = Columns::Zero(centres.rows(), 3);
+            weights.row(j) << 1, 2, 3;
+            s.set(centres, weights);
+
+            std::vector<Vector3> x{centres.row(j).transpose()};
+            for (double d = 1e-160; d < 1; d *= 1.7)
+            {
+                x.push_back(x[0] + Vector3(0, d, 0));
+            }
+            const Vectors v = s(rows(x));
+            ASSERT_EQ(v(0, 0), kernel(0));
+            for (std::size_t i = 0; i < x.size(); ++i)
+            {
+                const double d = (x[i] - x[0]).norm();
+                ASSERT_NEAR(v(i, 0), kernel(d), 2e-15) << j << ' ' << d;
+            }
+        }
+    }
+}
+
+
 TEST(RbfInterpolant, addsThePolynomialToTheSum)
 {
     Random random(12);
