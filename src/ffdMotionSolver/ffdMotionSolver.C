@@ -21,7 +21,6 @@ License
 #include "ffdMotionSolver.H"
 #include "ffdPreview.H"
 #include "addToRunTimeSelectionTable.H"
-#include "cyclicPoints.H"
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "pointDisplacementField.H"
@@ -127,6 +126,16 @@ void Foam::ffdMotionSolver::makeGeometry()
 {
     plane_.reset(new planarReduction(mesh(), points0()));
     symmetry_.reset(new symmetryPlanes(mesh(), points0()));
+    coupled_ = cyclicCopies::New
+    (
+        mesh(),
+        points0(),
+        meshImages
+        (
+            mesh(), points0(), plane_(), labelHashSet(), labelHashSet(),
+            pointField()
+        )
+    );
 
     pointField positions(mesh().nPoints());
     forAll(positions, pointi)
@@ -229,7 +238,7 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
             << "    Let the lattice move along the plane there" << endl;
     }
 
-    const scalar difference = cyclicPoints::match(mesh(), displacement);
+    const scalar difference = coupled_->match(displacement);
     if (difference > 1e-6*largest)
     {
         WarningInFunction
@@ -309,6 +318,7 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 
     plane_.clear();
     symmetry_.clear();
+    coupled_.clear();
 }
 
 

@@ -23,6 +23,8 @@ License
 #include "processorCyclicPolyPatch.H"
 #include "syncTools.H"
 
+#include <limits>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -172,6 +174,31 @@ void Foam::cyclicCopies::findCopies(const morph::ImageGroup& periods)
 }
 
 
+Foam::autoPtr<Foam::cyclicCopies> Foam::cyclicCopies::New
+(
+    const polyMesh& mesh,
+    const pointField& points0,
+    const meshImages& found
+)
+{
+    return autoPtr<cyclicCopies>
+    (
+        new cyclicCopies
+        (
+            mesh,
+            points0,
+            morph::ImageGroup
+            (
+                found.periods(),
+                found.box(),
+                found.touch(),
+                std::numeric_limits<int>::max()
+            )
+        )
+    );
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::boolList Foam::cyclicCopies::first() const
@@ -218,6 +245,30 @@ Foam::List<Foam::vectorField> Foam::cyclicCopies::values
         }
     }
     return all;
+}
+
+
+Foam::scalar Foam::cyclicCopies::match(vectorField& values) const
+{
+    if (empty())
+    {
+        return 0;
+    }
+    const List<vectorField> copies
+    (
+        this->values(vectorField(values, points_), vector::uniform(GREAT))
+    );
+    scalar difference = 0;
+    forAll(points_, i)
+    {
+        const vector mean = sum(copies[i])/copies[i].size();
+        values[points_[i]] = mean;
+        for (const vector& value : copies[i])
+        {
+            difference = max(difference, 2*mag(value - mean));
+        }
+    }
+    return returnReduce(difference, maxOp<scalar>());
 }
 
 

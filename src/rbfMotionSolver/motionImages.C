@@ -32,9 +32,6 @@ namespace Foam
 // More than these cost more than they give
 static const morph::Index mostImages = 200;
 
-// Of the mesh's size: images at this distance touch it
-static const scalar touch = 1e-3;
-
 
 // Patches whose points slide on a plane of symmetry that does not move
 static labelHashSet mirrorPatches
@@ -115,21 +112,7 @@ Foam::motionImages::motionImages
     ),
     supportRadius_(0)
 {
-    coupled_.reset
-    (
-        new cyclicCopies
-        (
-            mesh,
-            points0,
-            morph::ImageGroup
-            (
-                found_.periods(),
-                found_.box(),
-                touch*found_.box().diameter(),
-                std::numeric_limits<int>::max()
-            )
-        )
-    );
+    coupled_ = cyclicCopies::New(mesh, points0, found_);
 
     if (settings_.images == rbfMotionSettings::imagePolicy::no)
     {
@@ -153,7 +136,7 @@ Foam::motionImages::motionImages
         renounce(why);
         return;
     }
-    touching_ = within(touch*found_.box().diameter());
+    touching_ = within(found_.touch());
 }
 
 

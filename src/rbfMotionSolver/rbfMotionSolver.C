@@ -491,7 +491,7 @@ Foam::vectorField Foam::rbfMotionSolver::propagate() const
     {
         inPlane[evaluated_[i]] = toFoam(s.row(i).transpose());
     }
-    matchCyclics(inPlane);
+    images_->match(inPlane);
     controlPoints_->impose(inPlane, settings_.exactSliding);
     return inPlane;
 }
@@ -512,27 +512,6 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::expand
         );
     }
     return displacement;
-}
-
-
-void Foam::rbfMotionSolver::matchCyclics(vectorField& displacement) const
-{
-    const cyclicCopies& coupled = images_->coupled();
-    if (images_->periodic() || coupled.empty())
-    {
-        return;
-    }
-    const List<vectorField> copies
-    (
-        coupled.values
-        (
-            vectorField(displacement, coupled.points()), vector::uniform(GREAT)
-        )
-    );
-    forAll(copies, i)
-    {
-        displacement[coupled.points()[i]] = average(copies[i]);
-    }
 }
 
 
@@ -605,7 +584,7 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::inSubSteps
 {
     const auto constrain = [&](vectorField& inPlane, const scalar fraction)
     {
-        matchCyclics(inPlane);
+        images_->match(inPlane);
         controlPoints_->impose(inPlane, settings_.exactSliding, fraction);
     };
     const morph::SubStepSettings settings

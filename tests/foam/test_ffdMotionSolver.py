@@ -341,6 +341,37 @@ def test_cyclic_pairs_move_alike(tmp_path, ranks):
     assert "cyclic points are moved differently" in output
 
 
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_rotational_pairs_move_alike(tmp_path, ranks):
+    # A quarter of a ring; source of truth: the rotation of the patches
+    corners = [(r*c, r*s, z) for z in (0, 1) for r, (c, s) in (
+        (0.5, (1, 0)), (1, (1, 0)), (1, (0, 1)), (0.5, (0, 1)))]
+    turn = "transform rotational; rotationAxis (0 0 1);" \
+        " rotationCentre (0 0 0);"
+    patches = {**CUBE, "yMin": f"cyclic; neighbourPatch yMax; {turn}",
+               "yMax": f"cyclic; neighbourPatch yMin; {turn}"}
+    case = ffd_case(
+        tmp_path, ffd_box("body", parameter(
+            "a", [((2, 0, 1), (0.05, 0.02, 0.1))], "0.5")),
+        patches=patches, corners=corners, cells=(4, 4, 4))
+    before = reference(case)
+    if ranks > 1:
+        case.decompose((1, 1, 3))
+    case.run("moveDynamicMesh", ranks=ranks)
+    after = points_at(case, 1)
+    first, last = (np.flatnonzero(np.isclose(before[:, a], 0, atol=1e-9))
+                   for a in (1, 0))
+    turned = np.stack([-before[first, 1], before[first, 0],
+                       before[first, 2]], 1)
+    partner = last[np.linalg.norm(
+        turned[:, None] - before[last], axis=2).argmin(axis=1)]
+    assert np.abs(after[first] - before[first]).max() > 0.002
+    np.testing.assert_allclose(
+        after[partner],
+        np.stack([-after[first, 1], after[first, 0], after[first, 2]], 1),
+        rtol=0, atol=1e-14)
+
+
 # --- parallel and restart
 
 
