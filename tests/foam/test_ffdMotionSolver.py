@@ -484,7 +484,7 @@ def test_two_regions_in_one_process_move_as_each_by_itself(tmp_path):
             to.parent.mkdir(parents=True, exist_ok=True)
             copy = shutil.copytree if there.name == "polyMesh" else shutil.copy
             copy(alone[region].path/name, to)
-    both.run("moveRegions", "left", "right")
+    both.run("moveRegions", "(left right)")
     for region in boxes:
         for time in (1, 2, 3):
             np.testing.assert_array_equal(
