@@ -53,3 +53,15 @@ def test_a_table_is_written_as_csv_and_markdown(tmp_path, capsys):
     assert markdown.splitlines() == [
         "| case | Cd       |", "|------|----------|", "| a    | 0.123457 |",
         "| bb   | 2        |"]
+
+
+def test_trajectories_are_compared_at_the_times_of_the_reference(tmp_path):
+    from trajectories import compare
+    # 2 t against 2 t + 0.1 at every fourth of it, to the earlier end
+    compare(([0, 1, 2], [0, 2, 4]), ([0, 0.5, 1.5, 3], [0.1, 1.1, 3.1, 9]),
+            "other", ["sway [m]"], tmp_path/"motion")
+    with (tmp_path/"motion.csv").open() as file:
+        row, = csv.DictReader(file)
+    assert float(row["largest, rbf"]) == pytest.approx(3)
+    assert float(row["largest, other"]) == pytest.approx(3.1)
+    assert float(row["largest difference, of that"]) == pytest.approx(0.1/3.1)

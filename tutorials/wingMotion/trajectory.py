@@ -8,7 +8,7 @@ from pathlib import Path
 
 here = Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import writeTable  # noqa: E402
+from trajectories import compare  # noqa: E402
 
 number = r"([-+.\deE]+)"
 step = re.compile(
@@ -34,31 +34,5 @@ def trajectory(name):
     return times, heave, [angle - pitch[0] for angle in pitch]
 
 
-def at(time, times, values):
-    after = next(i for i, t in enumerate(times) if t >= time - 1e-9)
-    if after == 0:
-        return values[0]
-    part = (time - times[after - 1]) / (times[after] - times[after - 1])
-    return values[after - 1] + part * (values[after] - values[after - 1])
-
-
-def row(label, ours, reference, times):
-    a = [at(t, ours[0], ours[1]) for t in times]
-    b = [at(t, reference[0], reference[1]) for t in times]
-    largest = max(map(abs, b))
-    return {
-        "motion": label,
-        "largest, rbf": max(map(abs, a)),
-        "largest, sixDoF": largest,
-        "largest difference, of that": max(
-            abs(x - y) for x, y in zip(a, b)) / largest,
-    }
-
-
-ours, reference = trajectory("rbf"), trajectory("sixDoF")
-end = min(ours[0][-1], reference[0][-1])
-times = [t for t in reference[0] if t <= end]
-writeTable(
-    [row("heave [m]", ours[:2], reference[:2], times),
-     row("pitch [deg]", ours[::2], reference[::2], times)],
-    here / "results/trajectory")
+compare(trajectory("rbf"), trajectory("sixDoF"), "sixDoF",
+        ["heave [m]", "pitch [deg]"], here / "results/trajectory")
