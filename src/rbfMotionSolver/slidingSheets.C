@@ -1,0 +1,291 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "slidingSheets.H"
+#include "foamCompat.H"
+#include "surfaceNormals.H"
+#include "triangulatedSurface.H"
+#include "unitConversion.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// A sheet is planar where no face is tilted by more than this [rad]: meshes
+// written with six digits have not quite flat planes
+static const scalar planarAngle = 1e-3;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::slidingSheets::slidingSheets
+(
+    const polyMesh& mesh,
+    const pointField& points0,
+    const PtrList<controlPointGroup>& groups,
+    const planarReduction& plane,
+    const scalar featureAngle
+)
+:
+    mesh_(mesh),
+    points0_(points0),
+    groups_(groups),
+    plane_(plane),
+    featureAngle_(featureAngle),
+    moves_(groups.size()),
+    displaced_(groups.size()),
+    named_(mesh, groups, featureAngle),
+    shaped_(false)
+{
+    forAll(groups_, groupi)
+    {
+        moves_[groupi] = groups_[groupi].slides() && groups_[groupi].moves();
+    }
+    gatherFaces();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::slidingSheets::gatherFaces()
+{
+    // Sheets go on from one group to the next where both are at rest, and what
+    // they are is left to the faces
+    const label common = groups_.size();
+    labelList families(identity(groups_.size()));
+    DynamicList<label> faces, tags;
+    DynamicList<bool> flips;
+    forAll(groups_, groupi)
+    {
+        const controlPointGroup& group = groups_[groupi];
+        typedef controlPointGroup::surfaceType type;
+        const bool own =
+            group.surface() == type::found || group.surface() == type::curved;
+        if (own && !moves_[groupi] && magSqr(group.normal()) == 0)
+        {
+            families[groupi] = common;
+        }
+        if (group.slides())
+        {
+            boolList groupFlips;
+            const labelList groupFaces(group.faces(groupFlips));
+            faces.append(groupFaces);
+            flips.append(groupFlips);
+            tags.append(labelList(groupFaces.size(), groupi));
+        }
+    }
+    myFaces_.transfer(faces);
+    faces_.reset
+    (
+        new gatheredFaces
+        (
+            mesh_,
+            points0_,
+            myFaces_,
+            boolList(flips),
+            labelList(tags),
+            families,
+            featureAngle_
+        )
+    );
+
+    sheets_.setSize(faces_->nSheets());
+    forAll(faces_->faces(), i)
+    {
+        const label groupi = faces_->tags()[i];
+        if (!sheets_.set(faces_->sheets()[i]))
+        {
+            const bool own = families[groupi] == common;
+            sheets_.set
+            (
+                faces_->sheets()[i],
+                new sheet{own ? -1 : groupi, false, Zero, nullptr}
+            );
+        }
+    }
+}
+
+
+bool Foam::slidingSheets::displace()
+{
+    bool changed = false;
+    forAll(groups_, groupi)
+    {
+        const controlPointGroup& group = groups_[groupi];
+        if (!moves_[groupi])
+        {
+            continue;
+        }
+        const labelList members(group.meshPoints().sortedToc());
+        const pointField positions(points0_, members);
+        const labelList listed(members.size(), -1);
+        const tmp<vectorField> td
+        (
+            group.displacement({positions, members, listed})
+        );
+
+        // Every rank needs all of them, whichever has them
+        List<labelList> allVertices(Pstream::nProcs());
+        List<pointField> allPositions(Pstream::nProcs());
+        labelList& myVertices = allVertices[Pstream::myProcNo()];
+        myVertices.setSize(members.size());
+        forAll(members, i)
+        {
+            myVertices[i] = faces_->vertices().lookup(members[i], -1);
+        }
+        allPositions[Pstream::myProcNo()] = positions + td();
+        foamCompat::allGatherList(allVertices);
+        foamCompat::allGatherList(allPositions);
+        pointField x(faces_->points());
+        forAll(allVertices, ranki)
+        {
+            forAll(allVertices[ranki], i)
+            {
+                if (allVertices[ranki][i] >= 0)
+                {
+                    x[allVertices[ranki][i]] = allPositions[ranki][i];
+                }
+            }
+        }
+        changed = changed || x != displaced_[groupi];
+        displaced_[groupi].transfer(x);
+    }
+    return changed;
+}
+
+
+void Foam::slidingSheets::checkPlanes
+(
+    const List<DynamicList<vector>>& groupAreas
+) const
+{
+    forAll(groups_, groupi)
+    {
+        const surfaceNormals::plane plane =
+            surfaceNormals::planeThrough(vectorField(groupAreas[groupi]));
+        if (groupAreas[groupi].size() && plane.deviation >= planarAngle)
+        {
+            FatalIOErrorInFunction(groups_[groupi].dict())
+                << "Group '" << groups_[groupi].name() << "' has 'surface"
+                << " planar' but its faces deviate by up to "
+                << radToDeg(plane.deviation) << " degrees from a plane" << nl
+                << "    Use 'surface curved', or one group for each plane"
+                << nl << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::slidingSheets::findShapes()
+{
+    typedef controlPointGroup::surfaceType type;
+
+    List<DynamicList<vector>> areas(sheets_.size());
+    List<DynamicList<vector>> groupAreas(groups_.size());
+    boolList curved(sheets_.size(), false);
+    forAll(faces_->faces(), i)
+    {
+        const label sheeti = faces_->sheets()[i];
+        const controlPointGroup& group = groups_[faces_->tags()[i]];
+        const pointField& x = vertices(sheets_[sheeti]);
+        const face& f = faces_->faces()[i];
+        vector area = f.areaNormal(x);
+        if (magSqr(group.normal()) > 0)
+        {
+            area = mag(area)*group.normal();
+        }
+        area = plane_.reduce(f.centre(x), area);
+        areas[sheeti].append(area);
+        curved[sheeti] =
+            curved[sheeti]
+         || group.surface() == type::curved || group.surface() == type::named;
+        if (group.surface() == type::planar)
+        {
+            groupAreas[faces_->tags()[i]].append(area);
+        }
+    }
+
+    checkPlanes(groupAreas);
+    forAll(sheets_, sheeti)
+    {
+        sheet& s = sheets_[sheeti];
+        const surfaceNormals::plane plane =
+            surfaceNormals::planeThrough(vectorField(areas[sheeti]));
+        s.planar = !curved[sheeti] && plane.deviation < planarAngle;
+        s.normal = plane.normal;
+        if (s.planar || isNamed(s))
+        {
+            s.triangles.clear();
+        }
+        else
+        {
+            s.triangles.reset
+            (
+                new triangulatedSurface
+                (
+                    faces_->sheet(sheeti, vertices(s)), featureAngle_
+                )
+            );
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::slidingSheets::update()
+{
+    const bool changed = displace();
+    if (shaped_ && !changed)
+    {
+        return false;
+    }
+    findShapes();
+    if (!shaped_)
+    {
+        named_.checkDistances(faces_());
+        shaped_ = true;
+    }
+    return true;
+}
+
+
+const Foam::pointField& Foam::slidingSheets::vertices(const sheet& s) const
+{
+    return
+        s.group >= 0 && displaced_[s.group].size()
+      ? displaced_[s.group]
+      : faces_->points();
+}
+
+
+Foam::slidingSurface::contact Foam::slidingSheets::nearest
+(
+    const sheet& s,
+    const point& y
+) const
+{
+    return isNamed(s) ? named(s).nearest(y) : s.triangles->nearest(y);
+}
+
+
+// ************************************************************************* //
