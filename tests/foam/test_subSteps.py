@@ -103,7 +103,8 @@ def test_a_motion_that_returns_brings_the_mesh_back(tmp_path):
     there = "subSteps 4; supportRadius 1.2;" + middle(
         [(0, 0), (1, 0.3), (2, 0)])
     case = rbf_case(tmp_path, coeffs=there, cells=CELLS, control={"end": 2})
-    assert steps(case.run("moveDynamicMesh")) == [4, 4]
+    # Back at rest there is nothing to step
+    assert steps(case.run("moveDynamicMesh")) == [4]
     np.testing.assert_allclose(points_at(case, "2"), reference(case), rtol=0,
                                atol=ulps(reference(case)))
 
