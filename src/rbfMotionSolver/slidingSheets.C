@@ -32,6 +32,28 @@ namespace Foam
 // written with six digits have not quite flat planes
 static const scalar planarAngle = 1e-3;
 
+
+// In a wedge normals are those at one of its sides, where the points are; not
+// that between them, in the middle of a face. On the axis there is none
+static const point& outermost
+(
+    const face& f,
+    const pointField& x,
+    const planarReduction& plane
+)
+{
+    label outer = f[0];
+    for (const label v : f)
+    {
+        const vector way = plane.position(x[v]) - plane.position(x[outer]);
+        if ((way & plane.radial()) > SMALL)
+        {
+            outer = v;
+        }
+    }
+    return x[outer];
+}
+
 } // End namespace Foam
 
 
@@ -213,7 +235,7 @@ void Foam::slidingSheets::findShapes()
         {
             area = mag(area)*group.normal();
         }
-        area = plane_.reduce(f.centre(x), area);
+        area = plane_.reduce(outermost(f, x, plane_), area);
         areas[sheeti].append(area);
         curved[sheeti] =
             curved[sheeti]
