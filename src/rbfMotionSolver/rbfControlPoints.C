@@ -27,10 +27,6 @@ License
 namespace Foam
 {
 
-// Directions of conditions are renewed where the cosine of the angle to those
-// of the surface is smaller: the iteration converges like the tangent
-static const scalar turnedCosine = 0.8;
-
 // In units of the largest displacement: what those in a plane of symmetry may
 // lack
 static const scalar samePeriod = 1e-6;
@@ -330,7 +326,11 @@ void Foam::rbfControlPoints::renew
 }
 
 
-bool Foam::rbfControlPoints::turned(const morph::RbfInterpolant& field) const
+bool Foam::rbfControlPoints::turned
+(
+    const morph::RbfInterpolant& field,
+    const scalar cosine
+) const
 {
     if (!follow_)
     {
@@ -345,12 +345,12 @@ bool Foam::rbfControlPoints::turned(const morph::RbfInterpolant& field) const
         const morph::Vector3 here = s.row(j).transpose();
         if (p.slides() && sliding_.follows(i) && here.norm() < farthest_)
         {
-            const scalar cosine =
+            const scalar present =
                 morph::slideOnto(p, here, sliding_.planes(i, toFoam(here)));
-            least = min(least, cosine);
+            least = min(least, present);
         }
     }
-    return returnReduce(least, minOp<scalar>()) < turnedCosine;
+    return returnReduce(least, minOp<scalar>()) < cosine;
 }
 
 
@@ -376,6 +376,34 @@ void Foam::rbfControlPoints::renewDirections
                 sliding_.normals(i),
                 start_[i]
             );
+            candidates_[j] = restricted(p);
+        }
+    }
+}
+
+
+void Foam::rbfControlPoints::turnTo(const morph::Vectors& reached)
+{
+    forAll(places_, j)
+    {
+        const label i = places_[j];
+        morph::ControlPoint& p = whole_[j];
+        if (p.slides() && sliding_.follows(i))
+        {
+            const morph::Vector3 here = reached.row(j).transpose();
+            const morph::TangentPlanes planes =
+                sliding_.planes(i, toFoam(here));
+            List<vector> normals(planes.k);
+            forAll(normals, k)
+            {
+                normals[k] =
+                    toFoam(morph::Vector3(planes.normals.col(k)));
+            }
+            p = condition
+            (
+                controlled_.position(i), true, normals, toFoam(here)
+            );
+            morph::slideOnto(p, here, planes);
             candidates_[j] = restricted(p);
         }
     }

@@ -64,6 +64,13 @@ static const scalar correctionReach = 0.1;
 // that go far around their surface: each brings some 60 degrees
 static const label mostTurns = 3;
 
+// Directions of conditions are renewed where the cosine of the angle to those
+// of the surface is smaller. Before the selection that costs little, and where
+// they have turned by more than 18 degrees fewer points do; after it, it is
+// another selection, for the iteration, which converges like the tangent
+static const scalar renewedCosine = 0.95;
+static const scalar turnedCosine = 0.8;
+
 // Of where points that slide go roughly, in largest displacements
 static const scalar roughTolerance = 1e-2;
 
@@ -392,7 +399,7 @@ void Foam::rbfMotionSolver::orient(morph::Communicator& communicator)
     );
     const morph::ControlPoints& candidates = controlPoints_->candidates();
     selection.select(candidates, communicator);
-    if (controlPoints_->turned(selection.interpolant()))
+    if (controlPoints_->turned(selection.interpolant(), renewedCosine))
     {
         controlPoints_->renewDirections(selection.interpolant());
     }
@@ -419,7 +426,8 @@ void Foam::rbfMotionSolver::select(const bool first)
         for
         (
             label n = 0;
-            n < mostTurns && controlPoints_->turned(selection_->interpolant());
+            n < mostTurns
+             && controlPoints_->turned(selection_->interpolant(), turnedCosine);
             ++n
         )
         {

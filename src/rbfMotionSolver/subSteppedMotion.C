@@ -30,7 +30,7 @@ Foam::subSteppedMotion::subSteppedMotion
     const polyMesh& mesh,
     const pointField& points0,
     const planarReduction& plane,
-    const rbfControlPoints& controlPoints,
+    rbfControlPoints& controlPoints,
     const labelList& evaluated,
     const morph::SubStepSettings& settings,
     const morph::GreedySelection::Renewal& renewal,
@@ -86,13 +86,18 @@ Foam::vectorField Foam::subSteppedMotion::next(const label n)
         positions[i] = plane_.position(points0_[pointi]) + reached_[pointi];
     }
 
+    // On curved surfaces conditions turn with the points
+    const morph::Vectors reached =
+        reachedByControlPoints(scalar(nMade_)/n);
+    controlPoints_.turnTo(reached);
+
     pstreamCommunicator communicator;
     morph::SelectionResult result;
     const morph::Vectors s = morph::subStep
     (
         settings_,
         controlPoints_.candidates(),
-        reachedByControlPoints(scalar(nMade_)/n),
+        reached,
         n - nMade_,
         renewal_,
         asVectors(positions),

@@ -75,3 +75,14 @@ def duct_obj(radius, sectors, low=-0.5, high=1.5):
         a, b = 1 + i, 1 + (i + 1) % sectors
         text += f"f {a} {b} {b + sectors}\nf {a} {b + sectors} {a + sectors}\n"
     return text
+
+
+def stl_of(obj):
+    """The triangles of an OBJ file as an ascii STL file."""
+    lines = [line.split() for line in obj.splitlines()]
+    vertices = [" ".join(line[1:]) for line in lines if line[0] == "v"]
+    facets = "".join(
+        "facet normal 0 0 0\nouter loop\n"
+        + "".join(f"vertex {vertices[int(i) - 1]}\n" for i in line[1:])
+        + "endloop\nendfacet\n" for line in lines if line[0] == "f")
+    return f"solid duct\n{facets}endsolid duct\n"

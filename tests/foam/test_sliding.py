@@ -7,8 +7,9 @@ named surface its own faces, which are flat and of equal angles around the axis.
 import numpy as np
 import pytest
 
-from rbfCase import groups, move, points_at, reference, selections
-from slidingCases import annulus, duct_obj
+from rbfCase import (CUBE, groups, move, points_at, rbf_case, reference,
+                     selections)
+from slidingCases import annulus, duct_obj, stl_of
 
 # The hub turns about an axis that is not quite that of the casing
 TURN = ("displacement { type solidBody; solidBodyMotionFunction rotatingMotion;"
@@ -114,6 +115,20 @@ def test_points_slide_onto_triangles_of_a_file(tmp_path):
     assert off_ends(before, after) < 1e-12
 
 
+def test_points_slide_onto_triangles_of_an_stl_file(tmp_path):
+    # Whose numbers are in single precision
+    case = casing_case(tmp_path, 'target "new.stl";', hub=STILL)
+    (case.path/"constant/triSurface").mkdir()
+    (case.path/"constant/triSurface/new.stl").write_text(
+        stl_of(duct_obj(1.1, 40)))
+    before = reference(case)
+    after = move(case)
+    casing = on_casing(before)
+    assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.09
+    assert off_faces(after[casing], 1.1, 40) < 1e-6
+    assert off_ends(before, after) < 1e-12
+
+
 def test_on_a_named_surface_points_keep_the_distance_they_have(tmp_path):
     # The dual mesh has its points in the middle of the faces of the old one
     case = casing_case(tmp_path, f"surface {CYLINDER}", hub=TURN)
@@ -150,6 +165,34 @@ def test_a_long_way_around(tmp_path):
     assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.8
     assert off_faces(after[casing], 1, 32) < 1e-12
     assert "Mesh OK" in output
+
+
+def turning(omega, extra=""):
+    return f"greedy {{ tolerance 1e-3; }} supportRadius 2; {extra}" + groups(
+        walls="type moving; patches (zMin zMax hub); displacement { type"
+        " solidBody; solidBodyMotionFunction rotatingMotion;"
+        " rotatingMotionCoeffs { origin (0 0 0); axis (0 0 1);"
+        f" omega {omega}; }} }}",
+        casing="type sliding; patches (casing);")
+
+
+@pytest.mark.parametrize("n", [4, 8])
+def test_sub_steps_go_on_around_the_surface(tmp_path, n):
+    # Ends and hub turn by 86 degrees: the casing follows, as far as it is
+    # dragged
+    case = annulus(tmp_path, turning(1.5, f"subSteps {n};"),
+                   cells=(CELLS[0], 4, 5))
+    before = reference(case)
+    output = case.run("moveDynamicMesh")
+    assert f"moved in {n} sub-steps" in output and "Mesh OK" in output
+    after = points_at(case, "1")
+    casing = on_casing(before) & (0.01 < before[:, 2]) & (before[:, 2] < 0.99)
+    assert off_faces(after[casing]) < 1e-12
+    start, end = np.unwrap(np.stack(
+        [np.arctan2(x[casing, 1], x[casing, 0]) for x in (before, after)]),
+                           axis=0)
+    # Further than 60 degrees, which is as far as one direction reaches
+    assert (end - start).min() > 1.3 and (end - start).max() < 1.5
 
 
 def test_there_and_back_does_not_drift(tmp_path):
@@ -203,6 +246,101 @@ def test_every_decomposition_slides_alike(tmp_path, surface):
         assert selections(output)[0][:2] == expected[0][:2]
         np.testing.assert_allclose(points_at(parallel, "1"), points, rtol=0,
                                    atol=1e-15)
+
+
+# --- where else points slide
+
+TURNED_ZONE = """
+actions
+(
+    { name ring; type faceSet; action new; source cylinderAnnulusToFace;
+      p1 (0 0 -1); p2 (0 0 2); outerRadius 0.76; innerRadius 0.72; }
+    { name ring; type faceZoneSet; action new; source setToFaceZone;
+      faceSet ring; }
+);
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_points_of_a_face_zone_stay_on_the_curved_surface_it_is(tmp_path,
+                                                                ranks):
+    # A cylinder halfway between hub and casing, which the mesh has as 24 planes
+    case = annulus(tmp_path, "greedy { tolerance 1e-3; } supportRadius 2;"
+                   + groups(hub=f"type moving; patches (hub); {TURN}",
+                            ring="type sliding; faceZones (ring);",
+                            ends="type sliding; patches (zMin zMax);",
+                            casing="type fixed; patches (casing);"),
+                   cells=(CELLS[0], 4, 6))
+    case.write("system/topoSetDict", "dictionary", TURNED_ZONE)
+    case.run("topoSet")
+    before = reference(case)
+    if ranks > 1:
+        case.decompose((2, 1, 1))
+    case.run("moveDynamicMesh", ranks=ranks)
+    after = points_at(case, "1")
+    ring = np.abs(np.hypot(before[:, 0], before[:, 1]) - 0.75) < 1e-9
+    assert ring.sum() == 24*7
+    assert np.linalg.norm((after - before)[ring], axis=1).max() > 0.1
+    assert off_faces(after[ring], 0.75) < 1e-12
+
+
+@pytest.mark.parametrize("shift", [(0.3, 0, 0), (-0.2, 0, 0.1)])
+def test_a_flank_between_displaced_corners_stays_straight(tmp_path, shift):
+    # The upper corner of the flank is displaced, the lower one is not: points
+    # end on the line between them, wherever along it
+    straight = ("displacement {{ type polyline; vertices ({}); values ({}); }}"
+                .format)
+    dx, _, dz = shift
+    case = rbf_case(
+        tmp_path, coeffs="greedy { tolerance 1e-3; } supportRadius 2;" + groups(
+            top="type moving; patches (zMax); "
+            + straight("(0 0 1) (1 0 1)", f"({dx} 0 {dz}) (0 0 {dz})"),
+            bottom="type fixed; patches (zMin);",
+            flank="type sliding; patches (xMin); "
+            + straight("(0 0 0) (0 0 1)", f"(0 0 0) ({dx} 0 {dz})"),
+            sides="type sliding; patches (yMin yMax);"),
+        cells=(5, 3, 8))
+    before = reference(case)
+    after = move(case)
+    flank = np.abs(before[:, 0]) < 1e-9
+    along = np.array([dx, 0, 1 + dz])
+    across = np.array([along[2], 0, -along[0]])/np.linalg.norm(along)
+    np.testing.assert_allclose(after[flank] @ across, 0, rtol=0, atol=1e-13)
+    inner = flank & (0.01 < before[:, 2]) & (before[:, 2] < 0.99)
+    # They slide on it: nothing puts them where the polyline says
+    told = before + np.outer(before[:, 2], shift)
+    assert np.abs((after - told)[inner] @ along).max() > 1e-3
+    for axis, plane in ((1, 0), (1, 1)):
+        side = np.abs(before[:, axis] - plane) < 1e-9
+        np.testing.assert_allclose(after[side, axis], plane, atol=1e-13)
+
+
+@pytest.mark.parametrize("height", [0.9, 1.2])
+def test_in_a_wedge_points_slide_along_the_straight_generatrix(tmp_path,
+                                                               height):
+    # A cone whose inner end moves along the axis: its radius is linear in x
+    angle = np.radians(2.5)
+    corners = [(x, r*np.cos(angle), z*r*np.sin(angle)) for z in (-1, 1)
+               for x, r in ((0, 0.3), (1, 0.3), (1, height), (0, 0.6))]
+    case = rbf_case(
+        tmp_path, coeffs="greedy { tolerance 1e-3; } supportRadius 2;" + groups(
+            hub="type moving; patches (yMin); displacement { type uniform;"
+            " value (0.15 0 0); }",
+            ends="type fixed; patches (xMin xMax);",
+            cone="type sliding; patches (yMax);"),
+        patches={**CUBE, "zMin": "wedge", "zMax": "wedge"},
+        cells=(8, 6, 1), corners=corners)
+    before = reference(case)
+    after = move(case)
+    radius = np.hypot(after[:, 1], after[:, 2])
+    cone = np.abs(np.hypot(before[:, 1], before[:, 2])
+                  - (0.6 + (height - 0.6)*before[:, 0])) < 1e-9
+    assert cone.sum() == 18
+    assert np.abs((after - before)[cone, 0]).max() > 0.01
+    np.testing.assert_allclose(
+        radius[cone], 0.6 + (height - 0.6)*after[cone, 0], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(np.abs(np.arctan2(after[:, 2], after[:, 1])),
+                               angle, rtol=0, atol=1e-14)
 
 
 # --- errors
