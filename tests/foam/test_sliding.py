@@ -195,6 +195,18 @@ def test_sub_steps_go_on_around_the_surface(tmp_path, n):
     assert (end - start).min() > 1.3 and (end - start).max() < 1.5
 
 
+def test_sub_steps_around_the_surface_are_the_same_on_three_ranks(tmp_path):
+    results = []
+    for ranks in (1, 3):
+        case = annulus(tmp_path/str(ranks), turning(1.5, "subSteps 4;"),
+                       cells=(CELLS[0], 4, 5))
+        if ranks > 1:
+            case.decompose_cells(np.random.default_rng(ranks).integers(
+                0, ranks, 4*CELLS[0]*4*5))
+        results.append(move(case, ranks=ranks))
+    assert np.array_equal(*results)
+
+
 def test_there_and_back_does_not_drift(tmp_path):
     steps = 40
     swing = " ".join(f"({t} ({0.3*np.sin(t*np.pi/4)!r} 0 {0.2*(t % 2)!r}))"
