@@ -161,7 +161,9 @@ def test_interrupted_it_stops_at_once_and_says_so(undisturbed):
     outcomes.path(study, "morph", 1).unlink()
     sweep_ = subprocess.Popen(
         [ROOT/"bin/morphStudy", "run", study.path], text=True,
-        env={**os.environ, "PAUSE": "20"}, stdout=subprocess.PIPE)
+        env={**os.environ, "PAUSE": "20"}, stdout=subprocess.PIPE,
+        # Shells let what they start in the background ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     waitUntil(lambda: runs(study, "0001") == 2, "no design started")
     sweep_.send_signal(signal.SIGINT)
     assert "The same command goes on from here" in sweep_.communicate()[0]
