@@ -55,7 +55,7 @@ def revolution(x, radius_y, radius_z, n):
 
 
 def ellipsoid(diameters=(1, 0.5, 0.3), n=80):
-    """Seed: the ellipsoid of Koshakji (2011), figure 2.13."""
+    """The ellipsoid of Koshakji (2011), figure 2.13."""
     angle = np.pi*np.arange(n + 1)/n
     a, b, c = np.array(diameters)/2
     return triangles(revolution(
