@@ -113,3 +113,24 @@ def test_a_mesh_without_our_solver_is_a_warning(tmp_path):
     output = case.run("moveDynamicMesh")
     assert re.search("has no motion solver that could", output)
     assert not (case.path/"postProcessing/controls").exists()
+
+
+def test_weights_of_points_that_have_images(tmp_path):
+    case = rbfCase.rbf_case(
+        tmp_path, patches={**rbfCase.CUBE, "yMin": "symmetryPlane",
+                           "xMin": "cyclic; neighbourPatch xMax;",
+                           "xMax": "cyclic; neighbourPatch xMin;"},
+        coeffs="images yes;\nsupportRadius 0.8;\n" + rbfCase.groups(
+            top="type moving; patches (zMax);"
+                " displacement { type uniform; value (0 0 0.05); }",
+            bottom="type fixed; patches (zMin);"))
+    control = (case.path/"system/controlDict").read_text()
+    (case.path/"system/controlDict").write_text(
+        control + "functions { controls { type motionControls;"
+        " libs (morphMotionSolvers); writeControl writeTime; } }\n")
+    case.run("moveDynamicMesh")
+    _, data = read_vtk(case.path/"postProcessing/controls/1/controlPoints.vtk")
+    selected = data["selected"] == 1
+    assert selected.any()
+    weight = np.linalg.norm(data["weight"], axis=1)
+    assert (weight[selected] > 0).any() and not weight[~selected].any()
