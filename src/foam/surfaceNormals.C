@@ -37,8 +37,8 @@ static const scalar straight = 0.8;
 
 static bool before
 (
-    const surfaceNormals::ofSurface& a,
-    const surfaceNormals::ofSurface& b
+    const surfaceNormals::taggedNormal& a,
+    const surfaceNormals::taggedNormal& b
 )
 {
     return
@@ -143,18 +143,18 @@ Foam::vector Foam::surfaceNormals::cornerNormal
 }
 
 
-Foam::List<Foam::surfaceNormals::ofSurface> Foam::surfaceNormals::distinct
+Foam::List<Foam::surfaceNormals::taggedNormal> Foam::surfaceNormals::distinct
 (
-    List<ofSurface> normals,
+    List<taggedNormal> normals,
     const scalar featureAngle
 )
 {
     // One order, whichever rank has which faces
     std::sort(normals.begin(), normals.end(), before);
 
-    DynamicList<ofSurface> first;
+    DynamicList<taggedNormal> first;
     DynamicList<vector> sum;
-    for (const ofSurface& n : normals)
+    for (const taggedNormal& n : normals)
     {
         const vector unit = n.normal/mag(n.normal);
         label group = 0;
@@ -179,7 +179,7 @@ Foam::List<Foam::surfaceNormals::ofSurface> Foam::surfaceNormals::distinct
     }
 
     // Those that the ones before do not imply, to within the angle
-    DynamicList<ofSurface> independent;
+    DynamicList<taggedNormal> independent;
     DynamicList<vector> orthogonal;
     forAll(sum, i)
     {
@@ -197,7 +197,7 @@ Foam::List<Foam::surfaceNormals::ofSurface> Foam::surfaceNormals::distinct
             orthogonal.append(rest/mag(rest));
         }
     }
-    return List<ofSurface>(independent);
+    return List<taggedNormal>(independent);
 }
 
 

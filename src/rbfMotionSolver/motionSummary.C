@@ -91,10 +91,10 @@ void Foam::motionSummary::add(const phase p)
 void Foam::motionSummary::add
 (
     const morph::SelectionResult& result,
-    const bool anew
+    const bool rebuild
 )
 {
-    nSelections_ += anew;
+    nSelections_ += rebuild;
     nSelected_ = result.selected;
     nCandidates_ = result.candidates;
     if (result.largestError >= error_)

@@ -23,17 +23,6 @@ License
 #include "FlatOutput.H"
 #include "unitConversion.H"
 
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::rbfMotionSettings::imagePolicy>
-Foam::rbfMotionSettings::imagePolicyNames
-({
-    { imagePolicy::automatic, "auto" },
-    { imagePolicy::yes, "yes" },
-    { imagePolicy::no, "no" }
-});
-
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -209,6 +198,25 @@ static morph::SelectionSettings readSelection(const dictionary& dict)
     return selection;
 }
 
+
+//- Why other entries exclude images; empty if they do not
+static string imagesRefusal(const rbfMotionSettings& settings)
+{
+    if (settings.selection.algorithm != morph::Algorithm::incremental)
+    {
+        return "they need algorithm incremental";
+    }
+    if (settings.polynomial != morph::Polynomial::none)
+    {
+        return "they need 'polynomial none'";
+    }
+    if (settings.surfaceCorrection)
+    {
+        return "the levels of 'surfaceCorrection' would not be symmetric";
+    }
+    return "";
+}
+
 } // End namespace Foam
 
 
@@ -244,12 +252,20 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
         dict.found("supportRadiusFactor") ? 0 : 0.5;
 
     settings.selection = readSelection(dict);
-    settings.images = dictionaryChecks::getChoice
-    (
-        dict, "images", imagePolicyNames, imagePolicy::automatic
-    );
     settings.surfaceCorrection =
         dict.getOrDefault<bool>("surfaceCorrection", false);
+    settings.images =
+    {
+        dictionaryChecks::getChoice
+        (
+            dict,
+            "images",
+            motionImages::policyNames,
+            motionImages::policy::automatic
+        ),
+        morph::Kernel(settings.kernel, 1).compact(),
+        imagesRefusal(settings)
+    };
 
     settings.exactSliding = dict.getOrDefault<bool>("exactSliding", true);
 

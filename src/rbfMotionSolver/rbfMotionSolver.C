@@ -220,7 +220,7 @@ void Foam::rbfMotionSolver::makeGeometry()
     (
         new motionImages
         (
-            mesh(), coeffDict(), points0(), plane_(), groups_(), settings_
+            mesh(), coeffDict(), points0(), plane_(), groups_(), settings_.images
         )
     );
     controlPoints_.reset
@@ -380,7 +380,7 @@ void Foam::rbfMotionSolver::makeSelection(morph::Communicator& communicator)
 }
 
 
-void Foam::rbfMotionSolver::orient(morph::Communicator& communicator)
+void Foam::rbfMotionSolver::alignDirections(morph::Communicator& communicator)
 {
     if (!controlPoints_->follow())
     {
@@ -416,7 +416,7 @@ void Foam::rbfMotionSolver::select(const bool first)
     {
         if (newSystem)
         {
-            orient(communicator);
+            alignDirections(communicator);
             makeSelection(communicator);
         }
         result = selection_->select
@@ -706,14 +706,14 @@ void Foam::rbfMotionSolver::solve()
     }
 
     // After a write this run goes on as one that restarts from it does
-    const bool anew = state_.wasWritten() || first;
-    const bool newDirections = controlPoints_->update(anew);
+    const bool rebuild = state_.wasWritten() || first;
+    const bool newDirections = controlPoints_->update(rebuild);
     const bool newRadius = updateSupportRadius();
     if ((first || newRadius) && !images_->reach(supportRadius_))
     {
-        controlPoints_->update(anew);
+        controlPoints_->update(rebuild);
     }
-    if (anew || newDirections || newRadius)
+    if (rebuild || newDirections || newRadius)
     {
         dropSelection(first, newRadius);
     }

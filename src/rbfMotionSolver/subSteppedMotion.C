@@ -89,7 +89,7 @@ Foam::vectorField Foam::subSteppedMotion::next(const label n)
     // On curved surfaces conditions turn with the points
     const morph::Vectors reached =
         reachedByControlPoints(scalar(nMade_)/n);
-    controlPoints_.turnTo(reached);
+    controlPoints_.setDirections(reached);
 
     pstreamCommunicator communicator;
     morph::SelectionResult result;

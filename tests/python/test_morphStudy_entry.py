@@ -1,5 +1,5 @@
 """Numbers in dictionaries. Source of truth: OpenFOAM's format of dictionaries
-(tests/foam/test_morphStudy.py asks foamDictionary)."""
+(test_morphStudy.py asks foamDictionary)."""
 
 import pytest
 

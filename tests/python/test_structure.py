@@ -1,5 +1,5 @@
 """The house keeps its shape: what may include what, and names that wmake can
-tell apart. Source of truth: the section "Where everything lives" of README.md.
+tell apart. Source of truth: the table of docs/architecture.md.
 """
 
 import pathlib
@@ -9,22 +9,17 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Each folder of src may include from itself and from those named here
-MAY_INCLUDE = {
-    "numerics": [],
-    "foam": ["numerics"],
-    "controlGeometry": [],
-    "catalyst": ["controlGeometry", "foam"],
-    "meshValidity": ["foam", "numerics"],
-    "ffd": ["controlGeometry", "foam", "numerics"],
-    "motion": ["ffd", "foam", "numerics"],
-    "slidingSurface": ["foam"],
-    "rbfMotionSolver": ["motion", "meshValidity", "slidingSurface",
-                        "controlGeometry", "foam", "numerics"],
-    "ffdMotionSolver": ["ffd", "meshValidity", "controlGeometry", "foam",
-                        "numerics"],
-}
+PAGE = ROOT/"docs/architecture.md"
 
+
+def table():
+    """Which folders each folder of src may include from, as the page says."""
+    rows = re.findall(r"^\| `(\w+)` \| ([\w, ]*)\| [^|]+ \|$",
+                      PAGE.read_text(), re.MULTILINE)
+    return {name: re.findall(r"\w+", others) for name, others in rows}
+
+
+MAY_INCLUDE = table()
 
 # Made by builds and runs
 GENERATED = {"lnInclude", "build", "runs", "linux64GccDPInt32Opt"}
@@ -46,6 +41,15 @@ def home():
 def test_every_source_folder_has_its_place():
     folders = {p.name for p in (ROOT/"src").iterdir() if p.is_dir()}
     assert folders == set(MAY_INCLUDE)
+
+
+def test_the_picture_has_no_circle():
+    done = set()
+    while len(done) < len(MAY_INCLUDE):
+        ready = {folder for folder, below in MAY_INCLUDE.items()
+                 if set(below) <= done} - done
+        assert ready, f"a circle among {set(MAY_INCLUDE) - done}"
+        done |= ready
 
 
 @pytest.mark.parametrize("folder", MAY_INCLUDE)

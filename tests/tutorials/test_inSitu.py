@@ -2,7 +2,7 @@
 first half second.
 
 Source of truth: what the pipeline says of camera, colours and control points;
-tests/foam/test_catalyst.py has what it receives to the bit.
+tests/catalyst/test_catalyst.py has what it receives to the bit.
 """
 
 import pytest

@@ -1,0 +1,465 @@
+/*---------------------------------------------------------------------------*\
+License
+    This file is part of morphFoam.
+
+    morphFoam is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by
+    the Free Software Foundation, either version 3 of the License, or
+    (at your option) any later version.
+
+    morphFoam is distributed in the hope that it will be useful, but WITHOUT
+    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
+    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
+    for more details.
+
+    You should have received a copy of the GNU General Public License
+    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
+
+\*---------------------------------------------------------------------------*/
+
+#include "controlPointGroup.H"
+#include "dictionaryChecks.H"
+#include "emptyPolyPatch.H"
+#include "processorPolyPatch.H"
+#include "wedgePolyPatch.H"
+#include "fixedNormalSlipPointPatchField.H"
+#include "fixedValuePointPatchFields.H"
+#include "pointFields.H"
+#include "FlatOutput.H"
+#include "StringStream.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::controlPointGroup::role>
+Foam::controlPointGroup::roleNames
+({
+    { role::moving, "moving" },
+    { role::fixed, "fixed" },
+    { role::sliding, "sliding" }
+});
+
+
+const Foam::Enum<Foam::controlPointGroup::surfaceType>
+Foam::controlPointGroup::surfaceNames
+({
+    { surfaceType::planar, "planar" },
+    { surfaceType::curved, "curved" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Numbers that can be squared; told without arithmetic, which others trap
+static bool reasonable(const vector& d)
+{
+    for (const scalar component : d)
+    {
+        if (!std::isfinite(component) || mag(component) > 1e-3*GREAT)
+        {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::controlPointGroup::controlPointGroup
+(
+    const word& name,
+    const dictionary& dict,
+    const polyMesh& mesh
+)
+:
+    dict_(dict),
+    mesh_(mesh),
+    name_(name),
+    role_(dictionaryChecks::getChoice(dict, "type", roleNames)),
+    surface_(surfaceType::found),
+    target_(false),
+    normal_(Zero),
+    displacement_(nullptr)
+{
+    dictionaryChecks::onlyKeys
+    (
+        dict,
+        {
+            "type", "patches", "faceZones", "pointZones", "points",
+            "displacement", "surface", "target"
+        }
+    );
+
+    if (dict.found("patches"))
+    {
+        selectPatches();
+    }
+    if (dict.found("faceZones"))
+    {
+        faceZones_ =
+            dictionaryChecks::select(dict, "faceZones", mesh.faceZones().names());
+    }
+    if (dict.found("pointZones"))
+    {
+        pointZones_ = dictionaryChecks::select
+        (
+            dict, "pointZones", mesh.pointZones().names()
+        );
+    }
+    if (dict.found("points"))
+    {
+        listed_ = dict.get<pointField>("points");
+    }
+    if
+    (
+        patches_.empty() && faceZones_.empty() && pointZones_.empty()
+     && listed_.empty()
+    )
+    {
+        FatalIOErrorInFunction(dict)
+            << "Group '" << name << "' selects no control points" << nl
+            << "    Give it 'patches', 'faceZones', 'pointZones' or 'points'"
+            << nl << exit(FatalIOError);
+    }
+
+    checkSurface();
+    checkDisplacement();
+}
+
+
+Foam::controlPointGroup::controlPointGroup
+(
+    const polyMesh& mesh,
+    const label patchi,
+    const role r
+)
+:
+    dict_(),
+    mesh_(mesh),
+    name_(mesh.boundaryMesh()[patchi].name()),
+    role_(r),
+    surface_(surfaceType::found),
+    target_(false),
+    normal_(Zero),
+    patches_(1, patchi),
+    displacement_(nullptr)
+{
+    if (r == role::moving)
+    {
+        dictionary field;
+        field.add("type", "pointDisplacement");
+        displacement_ =
+            prescribedDisplacement::New(field, mesh, patches_, 0);
+    }
+    else if (r == role::sliding)
+    {
+        readNormal();
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::controlPointGroup::selectPatches()
+{
+    const polyBoundaryMesh& boundary = mesh_.boundaryMesh();
+    labelHashSet selected;
+    for (const wordRe& pattern : dict_.get<wordRes>("patches"))
+    {
+        const labelHashSet these
+        (
+            boundary.patchSet(wordRes(1, pattern), false, true)
+        );
+
+        // On some ranks a processor patch may match what others do not have
+        bool found = false;
+        for (const label patchi : these)
+        {
+            found = found || patchi < boundary.nNonProcessor();
+        }
+        if (!found)
+        {
+            wordList names(boundary.names());
+            names.setSize(boundary.nNonProcessor());
+            FatalIOErrorInFunction(dict_)
+                << "Entry 'patches': no patch or patch group is called '"
+                << pattern << "'" << nl
+                << "    Patches: " << flatOutput(names) << nl
+                << "    Patch groups: "
+                << flatOutput(boundary.groupPatchIDs().sortedToc()) << nl
+                << exit(FatalIOError);
+        }
+        selected |= these;
+    }
+
+    for (const label patchi : selected.sortedToc())
+    {
+        const polyPatch& patch = boundary[patchi];
+        const bool constrained =
+            patch.coupled()
+         || isA<emptyPolyPatch>(patch)
+         || isA<wedgePolyPatch>(patch);
+
+        // A pattern such as ".*" means the patches that can be controlled
+        if (!constrained)
+        {
+            patches_.append(patchi);
+        }
+    }
+}
+
+
+void Foam::controlPointGroup::readNormal()
+{
+    const auto& field =
+        mesh_.lookupObject<pointVectorField>("pointDisplacement");
+    const pointPatchVectorField& condition =
+        field.boundaryField()[patches_[0]];
+
+    if (isA<fixedNormalSlipPointPatchField<vector>>(condition))
+    {
+        // It tells its normal to nobody but the file that it is written to
+        OStringStream written;
+        condition.write(written);
+        IStringStream entries(written.str());
+        const vector n(dictionary(entries).get<vector>("n"));
+        normal_ = n/max(mag(n), VSMALL);
+    }
+}
+
+
+void Foam::controlPointGroup::readSurface()
+{
+    target_ = dict_.found("target");
+    if (target_)
+    {
+        surface_ = surfaceType::named;
+        return;
+    }
+
+    // A file name has an extension, unlike the words there are
+    const entry& e = *dict_.findEntry("surface");
+    const token first(e.isStream() ? e.stream()[0] : token());
+    const bool isFile =
+        first.isString()
+     || (first.isWord() && first.wordToken().find('.') != string::npos);
+    surface_ =
+        e.isDict() || isFile
+      ? surfaceType::named
+      : dictionaryChecks::getChoice(dict_, "surface", surfaceNames);
+}
+
+
+void Foam::controlPointGroup::checkSurface()
+{
+    for (const char* key : {"surface", "target"})
+    {
+        if (dict_.found(key) && !slides())
+        {
+            FatalIOErrorInFunction(dict_)
+                << "Entry '" << key << "' is for groups of type sliding; this"
+                << " one is " << roleNames[role_] << nl << exit(FatalIOError);
+        }
+    }
+    if (dict_.found("surface") && dict_.found("target"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Both 'surface' and 'target' are given" << nl
+            << "    'surface' is what the points are on, 'target' what they are"
+            << " to be on instead: give one of them" << nl
+            << exit(FatalIOError);
+    }
+    if (dict_.found("surface") || dict_.found("target"))
+    {
+        readSurface();
+    }
+    if (surface_ == surfaceType::named && dict_.found("displacement"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry '" << namedSurface().keyword() << "' names a surface,"
+            << " which a 'displacement' cannot move" << nl
+            << "    Remove one of them: 'displacement' moves the patch's own"
+            << " surface, 'target' names the one to slide onto" << nl
+            << exit(FatalIOError);
+    }
+    if (slides() && (pointZones_.size() || listed_.size()))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "A sliding group needs a surface to slide on, but 'points' and"
+            << " 'pointZones' have none" << nl
+            << "    Select 'patches' or 'faceZones'" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::controlPointGroup::checkDisplacement()
+{
+    const dictionary* given = dict_.findDict("displacement");
+    if (given && role_ == role::fixed)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "A fixed group has no 'displacement'" << nl
+            << "    Remove the entry, or make the group moving or sliding"
+            << nl << exit(FatalIOError);
+    }
+    if (!given && dict_.found("displacement"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry 'displacement' has to be a dictionary:"
+            << " displacement { type ...; }" << nl << exit(FatalIOError);
+    }
+
+    if (given)
+    {
+        displacement_ = prescribedDisplacement::New
+        (
+            *given, mesh_, patches_, listed_.size()
+        );
+    }
+    else if (role_ == role::moving)
+    {
+        dictionary field(dict_, dictionary());
+        field.add("type", "pointDisplacement");
+        displacement_ = prescribedDisplacement::New
+        (
+            field, mesh_, patches_, listed_.size()
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::controlPointGroup::moves() const
+{
+    if (!displacement_.valid())
+    {
+        return false;
+    }
+    if (!fromField())
+    {
+        return true;
+    }
+
+    // A plain fixedValue of zero is zero for ever
+    const auto& field =
+        mesh_.lookupObject<pointVectorField>("pointDisplacement");
+    bool some = false;
+    for (const label patchi : patches_)
+    {
+        const auto& condition = refCast<const valuePointPatchField<vector>>
+        (
+            field.boundaryField()[patchi]
+        );
+        some =
+            some
+         || condition.type() != fixedValuePointPatchField<vector>::typeName;
+        for (const vector& d : condition)
+        {
+            some = some || d != vector(Zero);
+        }
+    }
+    return returnReduce(some, orOp<bool>());
+}
+
+
+bool Foam::controlPointGroup::fromField() const
+{
+    return displacement_.valid() && displacement_->fromField();
+}
+
+
+Foam::labelHashSet Foam::controlPointGroup::meshPoints() const
+{
+    labelHashSet selected;
+    for (const label patchi : patches_)
+    {
+        selected.insert(mesh_.boundaryMesh()[patchi].meshPoints());
+    }
+    for (const label zonei : faceZones_)
+    {
+        for (const label facei : mesh_.faceZones()[zonei])
+        {
+            selected.insert(mesh_.faces()[facei]);
+        }
+    }
+    for (const label zonei : pointZones_)
+    {
+        selected.insert(mesh_.pointZones()[zonei]);
+    }
+    return selected;
+}
+
+
+Foam::labelList Foam::controlPointGroup::faces(boolList& flips) const
+{
+    DynamicList<label> selected;
+    DynamicList<bool> flipped;
+    for (const label patchi : patches_)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        selected.append(identity(patch.size(), patch.start()));
+        flipped.append(boolList(patch.size(), false));
+    }
+    for (const label zonei : faceZones_)
+    {
+        const faceZone& zone = mesh_.faceZones()[zonei];
+        forAll(zone, i)
+        {
+            // Two ranks have the faces between them: one of them counts
+            const label patchi = mesh_.boundaryMesh().whichPatch(zone[i]);
+            const auto* between =
+                patchi < 0
+              ? nullptr
+              : isA<processorPolyPatch>(mesh_.boundaryMesh()[patchi]);
+            if (!between || between->owner())
+            {
+                selected.append(zone[i]);
+                flipped.append(zone.flipMap()[i]);
+            }
+        }
+    }
+    flips.transfer(flipped);
+    return labelList(selected);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
+(
+    const prescribedDisplacement::points& p
+) const
+{
+    if (!displacement_.valid())
+    {
+        return tmp<vectorField>::New(p.positions.size(), Zero);
+    }
+
+    tmp<vectorField> td(displacement_->displacement(p));
+    const vectorField& d = td();
+    OStringStream message;
+    for (label i = 0; i < d.size() && message.str().empty(); ++i)
+    {
+        if (!reasonable(d[i]))
+        {
+            message
+                << "Group '" << name_ << "': the prescribed displacement at "
+                << p.positions[i] << " is no finite number of metres: " << d[i]
+                << nl << "    Correct "
+                << (fromField() ? "pointDisplacement" : "'displacement'")
+                << " of this group";
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
+    return td;
+}
+
+
+// ************************************************************************* //

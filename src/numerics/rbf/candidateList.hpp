@@ -1,0 +1,77 @@
+// The short list of candidates from which a sweep takes its points.
+
+#ifndef morph_candidateList_hpp
+#define morph_candidateList_hpp
+
+#include "communicator.hpp"
+#include "controlPoints.hpp"
+
+namespace morph
+{
+
+// A candidate as all ranks see it
+struct Candidate
+{
+    ControlPoint point;
+    Vector3 residual;   // g - C^T s, its first k entries
+    double error;       // |residual|
+    int rank;           // who has it
+    Index index;        // and under which index
+
+    // Larger errors first, then by position
+    static bool precedes(const Candidate& a, const Candidate& b);
+};
+
+// The errors of a rank's candidates after a sweep
+struct Errors
+{
+    Vectors residuals;              // n x 3
+    std::vector<double> norms;      // n
+    std::vector<char> available;    // n: neither selected nor rejected
+};
+
+// The candidate of all ranks with the largest error, if one exceeds `least`.
+// Every rank sends one; collective.
+std::vector<Candidate> worstCandidate
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Communicator& communicator
+);
+
+// The `length` candidates of all ranks with the largest errors above `least`,
+// at most one per cell of size `cell` [m] (none if zero); sorted, the same on
+// every rank whatever the distribution. `outside` receives the error of the
+// first that did not find a place, zero if all did. `largest` is the largest
+// error of all ranks.
+//
+// A histogram of all ranks' errors tells each from where on it need not send:
+// together they send hardly more than the list has. Collective.
+std::vector<Candidate> candidateList
+(
+    const ControlPoints& candidates,
+    const Errors& errors,
+    double least,
+    Index length,
+    double cell,
+    double largest,
+    Communicator& communicator,
+    double& outside
+);
+
+// The candidates of all ranks at the given positions, to the last bit, in that
+// order: the same on every rank whatever the distribution. Of several at one
+// position the one with most conditions. Residuals and errors are not set.
+// Throws std::invalid_argument, on all ranks, where a position has none;
+// collective.
+std::vector<Candidate> candidatesAt
+(
+    const ControlPoints& candidates,
+    const std::vector<Vector3>& positions,
+    Communicator& communicator
+);
+
+} // namespace morph
+
+#endif
