@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Times of one pair of point and centre in the sums and matrices of kernels,
 // beside what the machine could do: a square root and the multiply-adds of a
 // pair at its full rate. Google Benchmark; the counter `pair` is seconds.

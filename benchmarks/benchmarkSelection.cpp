@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Times a selection on a set of control points from a file.
 //
 //     benchmarkSelection POINTS [-algorithm incremental|schur|standard]

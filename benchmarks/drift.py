@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What many periods of a motion leave behind: the mesh after a hundred periods
 beside that after one, and the memory of a thousand steps.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Times of free-form deformation: preparation once, evaluation per new value.
 
     ffd.py FOLDER           (with the environment of etc/bashrc)

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Where the time of one morphMesh goes, on one rank and on two, and what
 surfaceCorrection costs in each of several steps.
 

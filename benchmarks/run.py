@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Measures, and writes what was measured: run.py [-quick | -report FILE]
 
     -quick          a few minutes; into build/benchmarks/results

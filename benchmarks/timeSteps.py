@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What a time step of a moving mesh costs: the motion solvers beside each other,
 and beside the flow solver's own step.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Closed surfaces that tutorials put into a flow, written as STL.
 
     python3 scripts/bodies.py ellipsoid|bulb|rudder OUTPUT.stl

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Pictures side by side, as frames of a film.
 
     filmStrip([first.png, second.png, ...], strip.png, columns=4)

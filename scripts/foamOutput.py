@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Reads what OpenFOAM's applications and morphMesh write, and writes tables.
 
 Needs nothing but Python itself, so that every tutorial can use it.

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Pictures of a case's mesh and fields, made with ParaView without a display.
 
     withDisplay $(python3With paraview.simple) scripts/picture.py CASE OUTPUT.png

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Three-dimensional pictures: surfaces, patches, cuts through a mesh, lattices.
 
     withDisplay $(python3With paraview.simple) scripts/scene.py OUTPUT.png

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The motion of a body as two solvers found it, compared.
 
     compare(ours, reference, "rigidBody", ["sway [m]", "pitch [deg]"], output)

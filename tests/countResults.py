@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Sum of the JUnit reports of the test suites: countResults.py FOLDER SUITE...
 
 A suite that left no report, or one without tests, counts as a failure.

@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Writes the set of 100,000 candidates: generate.py FILE [COUNT]
 
 A unit box. In it a sphere that turns and moves, a ring that is bent and

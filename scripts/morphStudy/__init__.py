@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Sweeps of shapes, each morphed from one baseline and started from its fields.
 
 The command is bin/morphStudy; README.md beside this file has every key of the

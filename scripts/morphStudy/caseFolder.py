@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A design's case: copied from the template or from the baseline's case, with
 the design's parameters in its dictionaries."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Arithmetic of the study file, evaluated without eval.
 
     Expression("0.9*e + 0.35")({"e": 0.6})          # 0.89

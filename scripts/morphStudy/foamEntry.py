@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A number in a dictionary file, replaced where it stands.
 
 foamDictionary would do it, but writes the whole file anew with six digits.

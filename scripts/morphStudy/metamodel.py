@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Kriging of one response, and how well it predicts designs it has not seen.
 
 Gaussian process of constant mean, y = m + Z(x) + e, with the anisotropic Matern

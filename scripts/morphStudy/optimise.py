@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The verb optimise: the front on the metamodels, its clusters, and what runs
 say of their representatives."""
 

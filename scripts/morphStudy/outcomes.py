@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The outcome of a design: one file, written last and at once. A design that has
 one is finished, whatever its folder looks like; one without is made anew."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The best trade-offs: NSGA-II, and the clusters of its front.
 
 NSGA-II: Deb et al. 2002, IEEE Trans. Evol. Comput. 6, 182-197, doi

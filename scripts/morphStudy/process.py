@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A command with a log, a timeout, and an end: when it is over, or this process
 is gone, nothing of it is left running."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The verb sample: adds the designs that the study file asks for."""
 
 from . import check, designs, sampling, sweep

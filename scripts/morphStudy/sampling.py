@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Designs in a box under constraints: factorial, Latin hypercube, Sobol.
 
 Each method is given the points there are and returns the points to add; those

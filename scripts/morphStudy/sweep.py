@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The verb run: what is not finished, by Snakemake.
 
 Outcomes alone say what is finished, so that this can be killed at any moment:

@@ -1,20 +1,6 @@
 /*---------------------------------------------------------------------------*\
-License
-    This file is part of morphFoam.
-
-    morphFoam is free software: you can redistribute it and/or modify it
-    under the terms of the GNU General Public License as published by
-    the Free Software Foundation, either version 3 of the License, or
-    (at your option) any later version.
-
-    morphFoam is distributed in the hope that it will be useful, but WITHOUT
-    ANY WARRANTY; without even the implied warranty of MERCHANTABILITY or
-    FITNESS FOR A PARTICULAR PURPOSE.  See the GNU General Public License
-    for more details.
-
-    You should have received a copy of the GNU General Public License
-    along with morphFoam.  If not, see <http://www.gnu.org/licenses/>.
-
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "analyticSurface.H"

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """morphMesh: one motion, checked, written or refused.
 
 Sources of truth: with a uniform diffusivity, a box whose top is displaced by d

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """morphMesh -lattice and -derivatives: what controls a motion, before a flow.
 
 Sources of truth: a cube whose height a lattice of eight points scales by 1 + mu:

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """morphSurface: boxes of ffdMotionSolver on surface files.
 
 Sources of truth: the Bernstein polynomials by themselves, closed forms of a

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Function object motionControls: control points as VTK files.
 
 Source of truth: the displacement that was prescribed, and the definition of the

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """rbfMotionSolver in a case of displacementLaplacian: what its conditions do.
 
 Sources of truth: the formulas of OpenFOAM's conditions for pointDisplacement

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What rbfMotionSolver keeps: planes, wedges, cyclic pairs, slip surfaces.
 
 Sources of truth: what each constraint means in OpenFOAM (an empty mesh moves

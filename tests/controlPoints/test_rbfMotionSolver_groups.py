@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Groups of control points and their displacement types, by dictionary.
 
 Sources of truth: the formula of each displacement type in the header of its

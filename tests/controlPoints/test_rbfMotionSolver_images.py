@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Mirror and periodic images of control points.
 
 Sources of truth: a box that is mirrored or repeated explicitly, as one larger

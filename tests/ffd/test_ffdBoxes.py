@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Boxes of free-form deformation without a mesh, and their derivatives.
 
 Source of truth: central differences of the deformed points and of the volume,

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What ffdMotionSolver does with a mesh.
 
 Sources of truth: the formula of Sederberg and Parry (1986), computed by numpy;

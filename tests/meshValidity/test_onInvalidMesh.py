@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """How far a mesh may move: onInvalidMesh error | limit | ignore, and reports.
 
 Sources of truth: boxes of one layer of cells, of which every point is on a

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A study whose solver is closed-form arithmetic, for tests of morphStudy."""
 
 import pathlib

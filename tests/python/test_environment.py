@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """On a machine whose user has sourced an OpenFOAM, that one is used and nothing
 is installed. Source of truth: the README's section "Two commands".
 """

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Reading tables and logs. Source of truth: what OpenFOAM's function objects and
 solvers write."""
 

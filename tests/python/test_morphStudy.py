@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A study with OpenFOAM: conduction through a block whose top wall moves. Its
 temperature is linear, so that its gradient at the wall is 1/height, on the morphed
 mesh but for the little that its cells are skewed (4e-5 measured); a height below

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Numbers in dictionaries. Source of truth: OpenFOAM's format of dictionaries
 (test_morphStudy.py asks foamDictionary)."""
 

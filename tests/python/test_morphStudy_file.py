@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What a study file may say, and what morphStudy answers to what it may not.
 Source of truth: scripts/morphStudy/README.md."""
 

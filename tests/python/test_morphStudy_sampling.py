@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Where designs are put. Sources of truth: the definitions of the methods
 (scripts/morphStudy/sampling.py names them), scipy's own sequences."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Designs from folder to outcome, and sweeps that are killed. The solver is
 arithmetic (morphStudyCase.py), so that what must come out is known: f = x^2 + y,
 g = 1 - x y, three iterations from the time it starts at."""

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """scripts/picture.py: what is where in the picture, pixel by pixel. The mesh is
 the unit square, its field the x of the cell centres."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The house keeps its shape: what may include what, and names that wmake can
 tell apart. Source of truth: the table of docs/architecture.md.
 """
@@ -92,3 +95,15 @@ def test_version_switches_are_in_one_header():
     users = {path.name for path in sources("src") + sources("applications")
              if re.search(r"#\s*if.*\bOPENFOAM\b", path.read_text())}
     assert users <= {"foamCompat.H"}
+
+
+def test_every_source_says_whose_it_is_and_under_which_licence():
+    files = [path for folder in ("src", "applications", "benchmarks", "tests",
+                                 "tutorials", "scripts")
+             for path in (ROOT/folder).rglob("*")
+             if path.suffix in (".C", ".H", ".cpp", ".hpp", ".py")
+             and not GENERATED.intersection(path.parts[len(ROOT.parts):])]
+    bare = [path.name for path in files
+            if "SPDX-License-Identifier: GPL-3.0-or-later"
+            not in path.read_text()[:400]]
+    assert not bare

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Pitching a body whose first cells are 1e-6 of its chord high.
 
 Sources of truth: quality.dat, whose figures are those of checkMesh; a rigid

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Uniform flow stays uniform while the mesh moves inside (geometric
 conservation): 100 steps of pimpleFoam in a box whose top moves to and fro, and
 the mesh with it. Fluid passes through all sides, as if

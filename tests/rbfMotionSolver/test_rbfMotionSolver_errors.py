@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """What rbfMotionSolver refuses, and what it says then.
 
 Source of truth: the contract, by which every wrong entry is an error that

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """rbfMotionSolver on several ranks moves the mesh as it does on one.
 
 Source of truth: the serial run. Selections and meshes are the same, whatever

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The selection of control points: what it reports, warns of, and leaves out.
 
 Sources of truth: the contract (log line, warnings) and what a greedy selection

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """rbfMotionSolver in time: restarts.
 
 Source of truth: the uninterrupted run, of which a run that is stopped and

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Two regions, each with a motion solver of its own.
 
 Source of truth: each region alone; and what both are told at the surface that

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A change of topology: what was known of the mesh is dropped and found anew.
 
 Source of truth: a solver that is made for the changed mesh.

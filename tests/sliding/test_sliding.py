@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Points that slide on curved surfaces and onto others.
 
 Sources of truth: the closed forms of cylinder and sphere; for a patch without a

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A mesh with a boundary layer as thin as in flows of high Reynolds number.
 
 An ellipse of chord 1 and thickness 0.12 in an O-grid out to radius 10, one cell

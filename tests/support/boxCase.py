@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """A box to move: its mesh, the dictionaries of a case, and what it should do.
 
     case = box(tmp_path, {"xMin": "wall", ...}, cells=(4, 4, 4))

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Cases whose mesh ffdMotionSolver moves, and what it should do.
 
     case = ffd_case(tmp_path, boxes=box_entry("body", order="(2 2 2)", ...))

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Small OpenFOAM cases for tests: make one, run commands in it, read points.
 
     case = FoamCase(tmp_path)

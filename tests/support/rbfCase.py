@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Cases whose mesh rbfMotionSolver moves.
 
     case = rbf_case(tmp_path, conditions={"zMax": fixed(0, 0, 0.1), ...})

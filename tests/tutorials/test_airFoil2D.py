@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """tutorials/airFoil2D as a regression, run in a temporary copy."""
 
 import csv

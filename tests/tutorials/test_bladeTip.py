@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """tutorials/bladeTip as a regression, run in a temporary copy.
 
 Sources of truth: the cylinders of casing and tip, the rotation by a twelfth of

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """pitchingAerofoilInSitu: a running pimpleFoam leaves pictures, reduced to its
 first half second.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """tutorials/pistonBowl as a regression, run in a temporary copy.
 
 Sources of truth: the cylinder and the planes on which points slide; figures

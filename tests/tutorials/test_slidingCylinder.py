@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """tutorials/slidingCylinder as a regression, run in a temporary copy.
 
 Source of truth: the bound that geometry sets, and what was measured before

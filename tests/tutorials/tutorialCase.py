@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Tutorials to run as regressions: in a copy, beside what they refer to.
 
     case = tutorial("airFoil2D", tmp_path)

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The largest angle by which each motion solver can pitch the aerofoil.
 
     angles.py [-rbfOnly] [-largest DEGREES] [-smallSteps]

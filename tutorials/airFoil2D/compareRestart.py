@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Iterations and forces on the pitched meshes: restarted against started anew.
 
 Run after Allrun's flow solutions; writes results/restart.csv and .md and

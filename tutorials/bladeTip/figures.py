@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """results/figures.md and .csv: what each run keeps, and the mesh it gives."""
 
 import re

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The passage of a blade row, and what the blade is to do.
 
     passage.py mesh          maps the box that blockMesh made onto the passage

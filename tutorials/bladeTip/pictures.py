@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The tutorial's pictures, in results/: blade and hub, and the mesh on the
 cylinder through the tip gap, before and after."""
 

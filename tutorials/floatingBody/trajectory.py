@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Sway and pitch of the floating box with our motion solver and OpenFOAM's, at
 the times of the latter, in a table (results/trajectory.csv and .md)."""
 

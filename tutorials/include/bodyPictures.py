@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Pictures of Allrun.body, in results/: the body in its lattice before and
 after, and the mesh about it in the plane of symmetry."""
 

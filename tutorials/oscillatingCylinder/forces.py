@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Mean drag, amplitude of the lift and its frequency over the last periods of
 each run, in a table (results/forces.csv and .md)."""
 

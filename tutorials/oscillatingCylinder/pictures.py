@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The tutorial's film strip, results/wake.png: vorticity of the wake and the
 mesh at the cylinder, every quarter of a period."""
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Lift and drag of the aerofoil over the last period, on the mesh that is
 morphed and on the one that turns as a whole, in a table (results/forces.csv)
 and a plot."""

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The tutorial's film strip, results/pitching.png: velocity and mesh of a
 period, and the mesh at the tail."""
 

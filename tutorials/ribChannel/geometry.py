@@ -1,4 +1,7 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """constant/parameters (h/H, e/2H, E/2H of the rib) -> constant/geometry.
 
 What the dictionaries of this case take from there: vertices and cell counts

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Pictures of a sweep: pictures.py STUDY, under withDisplay.
 
 Meshes of the baseline, the highest and the lowest design; temperature and

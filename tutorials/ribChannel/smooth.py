@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The smooth channel beside correlations: smooth.py CASE... -> results/smooth
 
 Nu (38) by Dittus and Boelter, which holds for a channel that is heated all

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The tutorial's pictures, in results/: the mesh on a side wall, moved by each motion
 solver as far as it can."""
 

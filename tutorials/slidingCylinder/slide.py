@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """How far each motion solver can move the cylinder along the duct.
 
     slide.py [-motions NAME ...] [-walls NAME ...] [-smallSteps]

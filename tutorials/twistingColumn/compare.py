@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """How far points of the column are from where the twist takes them, and what
 moveDynamicMesh says of the mesh (results/twist.csv and .md)."""
 

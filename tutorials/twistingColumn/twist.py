@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The twist of OpenFOAM's column at each step: by 180 degrees and back, and the
 same to the other side.
 

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """The Wigley hull, and the one that it becomes.
 
     hull.py displacement  writes runs/hull.txt, which dynamicMeshDict reads

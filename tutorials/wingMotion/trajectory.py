@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 """Heave and pitch of the wing on its springs with our motion solver and
 OpenFOAM's, at the times of the latter (results/trajectory.csv and .md)."""
 

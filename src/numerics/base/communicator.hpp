@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The collective operations that selection needs. Candidates stay on the rank
 // that has them; what is selected is known to all.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One binary for every x86-64 machine: functions so marked are compiled for
 // several instruction sets and the best is chosen when the library is loaded.
 

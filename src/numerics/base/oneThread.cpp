@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // OpenBLAS on one thread, whichever of its variants is installed.
 //
 // Each rank is a process of its own: threads of a BLAS would compete for the

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Exponential and logarithm in plain arithmetic, so that loops over them
 // vectorise with any instruction set. The C library's are calls.
 

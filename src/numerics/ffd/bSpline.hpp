@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // B-splines of one variable on [0,1]: clamped or periodic, uniform knots, any
 // degree.
 

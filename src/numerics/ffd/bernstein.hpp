@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Bernstein polynomials of one variable on [0,1].
 
 #ifndef morph_bernstein_hpp

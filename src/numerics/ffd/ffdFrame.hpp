@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The boxes of free-form deformation: where a point of space is in the box, and
 // what a displacement of the lattice is in space.
 

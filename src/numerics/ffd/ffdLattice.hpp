@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A control lattice: the displacement of points by that of its control points.
 
 #ifndef morph_ffdLattice_hpp

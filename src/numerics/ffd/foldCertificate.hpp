@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Does the map of a control lattice fold, and how far may it go?
 
 #ifndef morph_foldCertificate_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Polynomials of three variables on [0,1]^3 in the Bernstein basis.
 
 #ifndef morph_tensorPolynomial_hpp

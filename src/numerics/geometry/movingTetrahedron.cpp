@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Bernstein coefficients and first root of the volume of a moving tetrahedron
 
 #include "movingTetrahedron.hpp"

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Volume of a tetrahedron whose vertices move along straight lines, and when it
 // first vanishes.
 //

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Area, volume and centroids of a triangulated surface, and their derivatives.
 
 #ifndef morph_surfaceMeasures_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The linear polynomial of an interpolant, carried by a few of its points.
 
 #ifndef morph_affineBasis_hpp

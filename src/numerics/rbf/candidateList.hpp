@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The short list of candidates from which a sweep takes its points.
 
 #ifndef morph_candidateList_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Mirror and periodic images: fields that a group of rigid maps leaves as they
 // are.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Which points of a short list to take.
 
 #ifndef morph_pivotedCholesky_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Points sorted into leaves of neighbours, so that sums over control points of
 // compact support skip those that are out of reach.
 

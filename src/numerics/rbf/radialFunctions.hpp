@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The formulas of kernel.hpp as functions of the *squared* scaled distance,
 // inlined into the loops of kernelSum.cpp. Branch-free, so that the loops
 // vectorise; the square root is the only costly operation of the Wendland ones.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A displacement field given by control points and their weights.
 
 #ifndef morph_rbfInterpolant_hpp

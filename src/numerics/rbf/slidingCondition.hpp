@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Points that slide on curved surfaces: what their condition prescribes.
 
 #ifndef morph_slidingCondition_hpp

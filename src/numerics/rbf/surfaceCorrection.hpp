@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The last of the error at control points that were not selected.
 
 #ifndef morph_surfaceCorrection_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The loop over pairs of kernelSum.hpp for Wendland's functions and AVX-512.
 
 #ifndef morph_wendlandSum_hpp

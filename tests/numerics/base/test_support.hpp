@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the tests of the numerical core have in common: point sets, independent
 // computations to compare with, and a record of the largest deviations.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Free-form deformation: bases, boxes, lattices, what they keep.
 
 #include "bernstein.hpp"

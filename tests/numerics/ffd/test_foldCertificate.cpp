@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // When does a lattice fold? Against determinants sampled densely, and cases in
 // which the first place to fold is known.
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The volume of a tetrahedron in motion, and how far it stays positive.
 //
 // Sources of truth: the determinant of the edges themselves, and a search in

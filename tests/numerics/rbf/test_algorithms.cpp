@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The reference algorithms of greedy selection, beside the independent one of
 // test_support and beside each other.
 

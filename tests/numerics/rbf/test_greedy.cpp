@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Greedy selection on one rank: what is selected, and whether the errors
 // reported are those there are.
 

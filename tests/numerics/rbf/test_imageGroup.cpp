@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Images of control points: which of them there are, and the field that comes
 // with them, against a dense solve in long double and the property that defines
 // it, s(T x) = R_T s(x).

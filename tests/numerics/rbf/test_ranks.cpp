@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Ranks as threads: each has its candidates and they talk through memory.
 
 #include "test_support.hpp"

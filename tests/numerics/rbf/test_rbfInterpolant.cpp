@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Evaluation of sums of kernels: accuracy, and that a point's value depends on
 // nothing but the point.
 

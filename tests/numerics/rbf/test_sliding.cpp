@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Points that slide on curved surfaces: the values that Newton's method on the
 // chord prescribes, and greedy selection with them. Sources of truth: the
 // closed forms of planes, cylinder and sphere.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A motion in several steps.
 //
 // Sources of truth: where the conditions of the whole motion say that points

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The correction that makes the field exact at points that were not selected.
 
 #include "exactSurface.hpp"

@@ -1,3 +1,6 @@
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
 # script-version: 2.0
 """Mesh, pressure and control points of an aerofoil while it pitches: one
 picture each time that Catalyst is executed, from a fixed camera, in fixed

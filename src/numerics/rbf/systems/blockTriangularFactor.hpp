@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A lower triangular matrix to which rows are appended.
 
 #ifndef morph_blockTriangularFactor_hpp

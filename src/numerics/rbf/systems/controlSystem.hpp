@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The linear system of the control points selected so far.
 
 #ifndef morph_controlSystem_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The linear system of the selected control points, factorised as it grows.
 
 #ifndef morph_gramFactor_hpp

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The system of Mastrippolito et al. (2019), doi:10.1108/EC-06-2018-0265, as
 // the paper has it. For reference algorithms; gramFactor.hpp has the better one.
 

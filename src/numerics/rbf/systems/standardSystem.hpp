@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 The morphFoam authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The standard greedy algorithm's system.
 
 #ifndef morph_standardSystem_hpp
