@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The morphFoam authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""reference.py [FILE]: one page with every dictionary entry, made from the
+headers of the classes that read them. tests/docs/test_reference.py holds the
+tables of those headers against what the sources read.
+"""
+
+import pathlib
+import re
+import sys
+
+from classHeaders import ClassHeader, plain
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+# What a dictionary is called, the class whose header has its table, and, where
+# they are not those of the class itself, the sources that read its entries
+DICTIONARIES = [
+    ("rbfMotionSolverCoeffs", "rbfMotionSolver",
+     ["rbfMotionSolver", "rbfMotionSettings", "controlPointGroups",
+      "motionLimiter"]),
+    ("A group of controlPoints", "controlPointGroup", []),
+    ("surface or target: a cylinder", "cylinderSurface", []),
+    ("surface or target: others", "analyticSurface", ["slidingSurface"]),
+    ("displacement: pointDisplacement", "fieldDisplacement", []),
+    ("displacement: uniform", "uniformDisplacement", []),
+    ("displacement: solidBody", "solidBodyDisplacement", []),
+    ("displacement: values", "valuesDisplacement",
+     ["valuesDisplacement", "tabulatedDisplacement"]),
+    ("displacement: polyline", "polylineDisplacement",
+     ["polylineDisplacement", "tabulatedDisplacement"]),
+    ("displacement: file", "fileDisplacement",
+     ["fileDisplacement", "tabulatedDisplacement"]),
+    ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
+    ("ffdMotionSolverCoeffs", "ffdMotionSolver",
+     ["ffdMotionSolver", "ffdBoxes", "motionLimiter"]),
+    ("A box of boxes", "ffdBox", ["ffdBox", "ffdBoxSettings", "ffdFrames"]),
+    ("A parameter of a box", "ffdParameter", []),
+    ("Function object motionControls", "motionControls", []),
+    ("Function object catalyst", "catalystFunctionObject", []),
+    ("A channel of catalyst: mesh", "meshChannel",
+     ["meshChannel", "catalystChannel"]),
+    ("A channel of catalyst: controls", "controlsChannel",
+     ["controlsChannel", "catalystChannel"]),
+]
+
+# Entries whose values need more than a row: what they are, and the class
+EXPLAINED = [
+    ("onInvalidMesh", "motionLimiter"),
+    ("images", "motionImages"),
+]
+
+# Sources that read what no user writes, and why
+NOT_A_USERS = {
+    "rbfMotionState": "the file that a restart reads",
+    "pointDisplacementField": "OpenFOAM's own field file",
+    "prescribedDisplacement": "the type of a displacement: in each table",
+}
+
+# Entries that a base class of OpenFOAM reads
+READ_BY_OPENFOAM = {
+    "motionControls": {"type", "region"},
+    "catalystFunctionObject": {"type"},
+    "analyticSurface": {"type"},
+}
+
+# Likewise single entries, as (source, entry)
+NOT_AN_ENTRY = {
+    ("controlPointGroup", "n"): "written by OpenFOAM's own condition",
+}
+
+
+def header(name):
+    """The header of a class of ours, by its name."""
+    found = sorted((ROOT/"src").rglob(name + ".H"))
+    found = [path for path in found if "lnInclude" not in path.parts]
+    if len(found) != 1:
+        raise SystemExit(f"reference.py: there is no header {name}.H in src")
+    return ClassHeader(found[0])
+
+
+def entries_read(text):
+    """The names of dictionary entries in a C++ source: those that it takes
+    from a dictionary, and those that it allows there."""
+    text = re.sub(r"//.*", "", text)
+    methods = (r"get|getOrDefault|getCheck\w*|found|findDict|subDict\w*|lookup"
+               r"|findEntry|isDict|readIfPresent|readEntry|optionalSubDict")
+    names = re.findall(
+        rf"(?:\.|->|\b)(?:{methods})(?:<[^()]*>)?\s*\(\s*\"(\w+)\"", text)
+    # Through a function of ours: (dict, "entry", or (name, dict) of a Function1
+    names += re.findall(r"\(\s*\w*[dD]ict\w*(?:\(\))?,\s*\"(\w+)\"", text)
+    names += re.findall(r"::New\s*\(\s*\"(\w+)\",\s*\w*[dD]ict", text)
+    # Lists of names
+    lists = re.findall(r"(?:onlyKeys\s*\([^{;]*|wordList(?: \w+)?\s*\(\s*|"
+                       r"return )\{([^{};]*)\}", text)
+    lists += re.findall(r"keys\.append\((\"\w+\")\)", text)
+    lists += re.findall(r"const char\* key :\s*\{([^{}]*)\}", text)
+    for one in lists:
+        names += re.findall(r'"(\w+)"', one)
+        if re.search(r'\w+ \+ "Coeffs"', one):
+            names.append("<name>Coeffs")
+    return {name for name in names if name != "Coeffs"}
+
+
+def source_text(name):
+    found = [path for path in (ROOT/"src").rglob(name + ".C")
+             if "lnInclude" not in path.parts]
+    return found[0].read_text() if found else ""
+
+
+def entries_of(name, sources):
+    """What the sources of a dictionary read."""
+    return READ_BY_OPENFOAM.get(name, set()) | {
+        entry for source in sources or [name]
+        for entry in entries_read(source_text(source))
+        if (source, entry) not in NOT_AN_ENTRY}
+
+
+def anchor(title):
+    return re.sub(r"[^\w]+", "-", title.lower()).strip("-")
+
+
+def index(dictionaries):
+    """All entries by name, with where they stand."""
+    places = {}
+    for title, name, _ in dictionaries:
+        for row in header(name).entries():
+            places.setdefault(plain(row[0]), []).append(
+                f"[{title}](#{anchor(title)})")
+    lines = ["| Entry | In |", "| --- | --- |"]
+    for entry in sorted(places, key=str.lower):
+        where = list(dict.fromkeys(places[entry]))
+        lines.append(f"| `{entry}` | {', '.join(where)} |")
+    return "\n".join(lines)
+
+
+def heading(title):
+    return f"## {title} {{#{anchor(title)}}}"
+
+
+def linked(text):
+    """Headers that a text refers to become links to what they say here."""
+    places = {name: title for title, name, *_ in DICTIONARIES + EXPLAINED}
+
+    def link(match):
+        name = match[1]
+        if name not in places:
+            return f"`{match[0]}`"
+        return f"[{places[name]}](#{anchor(places[name])})"
+
+    # Not in code
+    pieces = re.split(r"(```.*?```|`[^`]*`)", text, flags=re.DOTALL)
+    pieces[::2] = [re.sub(r"\b(\w+)\.H\b", link, p) for p in pieces[::2]]
+    return "".join(pieces)
+
+
+def page():
+    parts = [
+        "# Every entry",
+        "Made from the headers of the classes that read these dictionaries. "
+        "An entry that is not here is an error. Times and factors that are "
+        "*Function1 of time* may be a number or any of OpenFOAM's functions: "
+        "`constant 1`, `table ((0 0) (1 0.5))`, `sine`, ...",
+        "## All entries by name",
+        index(DICTIONARIES),
+    ]
+    for title, name, _ in DICTIONARIES:
+        head = header(name)
+        notes = head.markdown("Note")
+        parts += [heading(title),
+                  head.markdown("Description"),
+                  head.markdown("Usage"),
+                  notes and "**Notes**",
+                  notes]
+    for title, name in EXPLAINED:
+        head = header(name)
+        parts += [heading(title),
+                  head.markdown("Description"), head.markdown("Note")]
+    return linked("\n\n".join(filter(None, parts))) + "\n"
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        pathlib.Path(sys.argv[1]).write_text(page())
+    else:
+        print(page(), end="")
