@@ -12,6 +12,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fvMesh.H"
 #include "OFstream.H"
 #include "OSspecific.H"
+#include "plainText.H"
 
 #include <limits>
 
@@ -69,8 +70,8 @@ static labelList selectedPatches(const fvMesh& mesh, const wordRes& names)
         there.setSize(boundary.nNonProcessor());
         FatalErrorInFunction
             << "Option -derivatives: no patch or patch group is called "
-            << flatOutput(names) << nl
-            << "    Patches: " << flatOutput(there) << nl
+            << plainText::listed(names).c_str() << nl
+            << "    Patches: " << plainText::listed(there).c_str() << nl
             << exit(FatalError);
     }
     return selected.sortedToc();

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "argList.H"
 #include "faceIOList.H"
 #include "fvMesh.H"
+#include "plainText.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -115,7 +116,8 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
         FatalErrorInFunction
             << "The option -time is '" << name << "', which is no number."
             << " The times of this case are "
-            << flatOutput(timeNames(runTime)) << "; give one time, for example"
+            << plainText::listed(timeNames(runTime)).c_str()
+            << "; give one time, for example"
             << " -time 0" << exit(FatalError);
     }
 
@@ -133,7 +135,7 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
 
     runTime.setTime(value, 0);
     Info<< "Time " << runTime.timeName() << " has no folder (there are "
-        << flatOutput(timeNames(runTime))
+        << plainText::listed(timeNames(runTime)).c_str()
         << "): the mesh is that of the time before,"
         << " and a motion solver that reads a field from this time will stop."
         << nl << endl;

@@ -176,7 +176,6 @@ static void writeTable
         mkDir(path.path());
 
         OFstream os(path);
-        os.precision(12);
         table(os);
     }
     Info<< "Wrote " << file.c_str() << endl;
@@ -237,11 +236,13 @@ void Foam::morphMeshOutput::writeQuality
     const meshQuality& after
 )
 {
+    // More than the log has, for programs that compare designs
+    const int digits = 6;
     writeTable(mesh, "quality.dat", [&](Ostream& os)
     {
         meshQuality::writeHeader(os);
-        before.writeRow(os, "before");
-        after.writeRow(os, "after");
+        before.writeRow(os, "before", digits);
+        after.writeRow(os, "after", digits);
     });
     writeTable(mesh, "histogram.dat", [&](Ostream& os)
     {

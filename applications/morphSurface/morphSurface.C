@@ -148,7 +148,11 @@ int main(int argc, char *argv[])
         FatalErrorInFunction
             << "Surfaces cannot be written as " << output << nl
             << "    Use one of the extensions "
-            << flatOutput(triSurface::writeTypes().sortedToc()) << nl
+            << plainText::listed
+               (
+                   triSurface::writeTypes().sortedToc()
+               ).c_str()
+            << nl
             << exit(FatalError);
     }
 

@@ -11,7 +11,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixedNormalSlipPointPatchField.H"
 #include "fixedValuePointPatchFields.H"
 #include "pointFields.H"
-#include "FlatOutput.H"
 #include "StringStream.H"
 
 #include <cmath>
@@ -177,9 +176,13 @@ void Foam::controlPointGroup::selectPatches()
             FatalIOErrorInFunction(dict_)
                 << "Entry 'patches': no patch or patch group is called '"
                 << pattern << "'" << nl
-                << "    Patches: " << flatOutput(names) << nl
+                << "    Patches: " << plainText::listed(names).c_str() << nl
                 << "    Patch groups: "
-                << flatOutput(boundary.groupPatchIDs().sortedToc()) << nl
+                << plainText::listed
+                   (
+                       boundary.groupPatchIDs().sortedToc()
+                   ).c_str()
+                << nl
                 << exit(FatalIOError);
         }
         selected |= these;

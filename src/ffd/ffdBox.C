@@ -191,7 +191,7 @@ void Foam::ffdBox::checkFold() const
         << ", which is " << toFoam(settings_.frame->position(where)) << ","
         << nl << "    the Jacobian determinant of its map is not positive."
         << nl << "    Parameters that bring it about: "
-        << dictionaryChecks::listed
+        << plainText::listed
            (
                offenders(certificate.where(), safe)
            ).c_str() << nl

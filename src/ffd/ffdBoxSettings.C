@@ -126,7 +126,7 @@ static label readContinuity(const dictionary& dict)
         FatalIOErrorInFunction(dict)
             << "Entry 'continuity' is '" << given << "'" << nl
             << "    Use one of "
-            << flatOutput(ffdBoxSettings::continuityNames) << nl
+            << plainText::listed(ffdBoxSettings::continuityNames).c_str() << nl
             << exit(FatalIOError);
     }
     return layers;

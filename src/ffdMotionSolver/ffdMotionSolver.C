@@ -196,14 +196,14 @@ void Foam::ffdMotionSolver::warnOfCut
     WarningInFunction
         << "The face " << ffdBox::faceName(face).c_str() << " of box '"
         << box.name() << "' cuts through patches "
-        << dictionaryChecks::listed(patches).c_str()
+        << plainText::listed(patches).c_str()
         << " and is not frozen: continuity is none." << nl
         << "    "
         << (
                moving.empty()
              ? string("No parameter moves its control points")
              : "The surface tears where parameters "
-             + dictionaryChecks::listed(moving)
+             + plainText::listed(moving)
              + " move its control points"
            ).c_str()
         << endl;

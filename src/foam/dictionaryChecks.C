@@ -5,7 +5,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
-#include "FlatOutput.H"
 #include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
@@ -22,7 +21,7 @@ void Foam::dictionaryChecks::onlyKeys
         {
             FatalIOErrorInFunction(dict)
                 << "Unknown entry '" << e.keyword() << "'" << nl
-                << "    Valid entries: " << flatOutput(allowed) << nl
+                << "    Valid entries: " << plainText::listed(allowed).c_str() << nl
                 << exit(FatalIOError);
         }
     }
@@ -74,17 +73,6 @@ void Foam::dictionaryChecks::stopIf
 }
 
 
-Foam::string Foam::dictionaryChecks::listed(const wordList& names)
-{
-    string text;
-    for (const word& name : names)
-    {
-        text += (text.empty() ? "" : " ") + name;
-    }
-    return '(' + text + ')';
-}
-
-
 Foam::labelList Foam::dictionaryChecks::select
 (
     const dictionary& dict,
@@ -109,7 +97,7 @@ Foam::labelList Foam::dictionaryChecks::select
             FatalIOErrorInFunction(dict)
                 << "Entry '" << key << "': nothing is called '" << pattern
                 << "'" << nl
-                << "    There are: " << flatOutput(names) << nl
+                << "    There are: " << plainText::listed(names).c_str() << nl
                 << exit(FatalIOError);
         }
     }

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "meshQuality.H"
 #include "movedGeometry.H"
+#include "plainText.H"
 #include "polyMeshTools.H"
 #include "syncTools.H"
 #include "unitConversion.H"
@@ -157,8 +158,18 @@ void Foam::meshQuality::writeHeader(Ostream& os)
 }
 
 
-void Foam::meshQuality::writeRow(Ostream& os, const word& name) const
+void Foam::meshQuality::writeRow
+(
+    Ostream& os,
+    const word& name,
+    const int digits
+) const
 {
+    const auto rounded = [=](const scalar x)
+    {
+        return plainText::rounded(x, digits);
+    };
+
     os  << name.c_str();
     for (label i = name.size(); i < 8; ++i)
     {
@@ -166,10 +177,10 @@ void Foam::meshQuality::writeRow(Ostream& os, const word& name) const
     }
 
     os  << setw(10) << nCells_
-        << ' ' << setw(18) << minVolume_
-        << ' ' << setw(19) << maxNonOrthogonality_
-        << ' ' << setw(18) << maxSkewness_
-        << ' ' << setw(18) << maxAspectRatio_
+        << ' ' << setw(18) << rounded(minVolume_).c_str()
+        << ' ' << setw(19) << rounded(maxNonOrthogonality_).c_str()
+        << ' ' << setw(18) << rounded(maxSkewness_).c_str()
+        << ' ' << setw(18) << rounded(maxAspectRatio_).c_str()
         << ' ' << setw(20) << nWrongFaces_
         << ' ' << setw(16) << nNonPositiveCells_ << endl;
 }

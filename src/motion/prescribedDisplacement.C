@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "prescribedDisplacement.H"
+#include "plainText.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,7 +43,11 @@ Foam::autoPtr<Foam::prescribedDisplacement> Foam::prescribedDisplacement::New
         FatalIOErrorInFunction(dict)
             << "Unknown displacement type '" << type << "'" << nl
             << "    Valid types: "
-            << flatOutput(dictionaryConstructorTablePtr_->sortedToc()) << nl
+            << plainText::listed
+               (
+                   dictionaryConstructorTablePtr_->sortedToc()
+               ).c_str()
+            << nl
             << exit(FatalIOError);
     }
 

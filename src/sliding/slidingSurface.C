@@ -6,8 +6,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "slidingSurface.H"
 #include "analyticSurface.H"
 #include "cylinderSurface.H"
-#include "triangulatedSurface.H"
+#include "plainText.H"
 #include "Time.H"
+#include "triangulatedSurface.H"
 #include "triSurface.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -30,7 +31,8 @@ static autoPtr<slidingSurface> fromFile
         const fileNameList there(readDir(path.path(), fileName::FILE));
         FatalIOErrorInFunction(dict)
             << "Entry '" << e.keyword() << "': there is no surface " << path
-            << nl << "    Files in constant/triSurface: " << flatOutput(there)
+            << nl << "    Files in constant/triSurface: "
+            << plainText::listed(there).c_str()
             << nl << exit(FatalIOError);
     }
     triSurface surface(path);

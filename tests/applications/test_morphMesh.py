@@ -99,11 +99,11 @@ def check_mesh(case, *options, **kwargs):
     }
 
 
-def same_figures(ours, checked):
+def same_figures(ours, checked, digits=6):
+    """checkMesh prints six digits, and so does quality.dat; the log has 3."""
     for name in NAMES:
-        # checkMesh prints six digits
-        assert ours[name] == pytest.approx(checked[name], rel=1e-5, abs=1e-4), \
-            name
+        assert ours[name] == pytest.approx(
+            checked[name], rel=10**(1 - digits), abs=1e-4), name
 
 
 # --- what it moves and writes
@@ -200,7 +200,7 @@ def test_dry_run_writes_nothing(tmp_path, options):
     where = "constant" if options else "0"
     assert f"{where}/polyMesh/points and postProcessing/" in output
     assert quality(output)["after"]["minVolume"] == \
-        pytest.approx(2*1.5/64, rel=1e-5)  # the volume of the box over 64
+        pytest.approx(2*1.5/64, rel=5e-3)  # the volume of the box over 64
 
 
 def test_points_keep_the_digits_that_thin_cells_need(tmp_path):
@@ -219,7 +219,7 @@ def test_follows_the_write_format_binary(tmp_path):
     case.run("morphMesh")
     assert b"binary" in (case.path/"0/polyMesh/points").read_bytes()[:1000]
     figures = quality_file(case)["after"]
-    assert figures["minVolume"] == pytest.approx(2*1.5/64)
+    assert figures["minVolume"] == pytest.approx(2*1.5/64, rel=1e-5)
     same_figures(figures, check_mesh(case))
 
 
@@ -327,8 +327,8 @@ def test_wrong_faces_and_cells_are_counted_as_checkMesh_counts_them(tangled):
     assert checked["wronglyOrientedFaces"] > 0
     assert checked["nonPositiveCells"] > 0
     figures = quality(tangled.run("morphMesh", status=1))
-    same_figures(figures["before"], checked)
-    same_figures(figures["after"], checked)
+    same_figures(figures["before"], checked, digits=3)
+    same_figures(figures["after"], checked, digits=3)
 
 
 def test_what_was_wrong_before_is_not_laid_to_the_motion(tangled):
