@@ -81,8 +81,8 @@ def machine():
         "compiler": said("g++", "--version").split("\n")[0],
         "blas": f"OpenBLAS {package}" if "openblas" in said(
             "ldd", str(BUILD/"benchmarkSelection")) else "none",
-        "commit": said("git", "rev-parse", "--short=10", "HEAD")
-                  + (" and changes" if changed else ""),
+        "commit": said("git", "rev-parse", "--short=10", "HEAD") + (
+            " and changes" if changed else ""),
         "load": pathlib.Path("/proc/loadavg").read_text().split()[0],
     }
 

@@ -7,11 +7,12 @@ import csv
 import json
 
 import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import pyplot as plt
 
 import measure
+
+matplotlib.use("Agg")
 
 COLOURS = {"standard": "tab:red", "schur": "tab:orange",
            "one point": "tab:blue", "blocks": "tab:green"}
@@ -314,8 +315,9 @@ def markdown(data):
     return f"""# Benchmarks, {data['machine']['date']}
 
 {'Quick run: few repetitions, small sizes. ' if data.get('quick') else ''}\
-Medians of repeated runs where a run takes less than some 20 s; {data.get('minutes', 0):.0f} minutes in all;
-load of the machine at the start: {data['machine']['load']}.
+Medians of repeated runs where a run takes less than some 20 s;
+{data.get('minutes', 0):.0f} minutes in all; load of the machine at the start:
+{data['machine']['load']}.
 
 ## Selection
 

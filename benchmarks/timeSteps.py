@@ -91,7 +91,6 @@ def make_case(path, around, away, along):
     replace(path/"system/resolution",
             (r"around +\d+", f"around {around}"), (r"away +\d+", f"away {away}"))
 
-
     replace(path/"system/controlDict", (r"endTime +78", f"endTime {0.03*STEPS}"),
             (r"functions\n\{(.|\n)*\n\}", ""))
     replace(path/"system/fvSchemes", ("default         none", "default Gauss linear"))

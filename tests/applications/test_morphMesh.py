@@ -26,6 +26,7 @@ motionSolver displacementLaplacian;
 displacementLaplacianCoeffs { diffusivity uniform; }
 """
 
+
 def field(dimensions, top, sides="patch"):
     """A point field that holds the bottom and gives the top a value."""
     return point_field({

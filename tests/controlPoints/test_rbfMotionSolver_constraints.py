@@ -12,7 +12,7 @@ displacement, the part normal to the surface is prescribed.
 import numpy as np
 import pytest
 
-from boxCase import fixed, vectors, words
+from boxCase import fixed, words
 from rbfCase import (CUBE, groups, move, rbf_case, reference, selections,
                      side, ulps)
 

@@ -44,7 +44,7 @@ def test_only_points_in_a_local_box_move_and_those_on_its_faces_belong_to_it(
         tmp_path):
     # The box reaches from 0.2 to 0.6 in x: points at 0.2 and 0.6 are on its
     # faces; there is no mesh beyond the others
-    moves = [((l, 1, 1), (0, 0.2, 0)) for l in range(3)]
+    moves = [((i, 1, 1), (0, 0.2, 0)) for i in range(3)]
     case = ffd_case(
         tmp_path, ffd_box("body", parameter("a", moves, "1"),
                           origin=(0.2, 0, 0), span=(0.4, 1, 1),
@@ -157,8 +157,8 @@ CYLINDER = """tube
 
 def test_a_cylindrical_box_moves_radius_angle_and_height(tmp_path):
     # All points alike: by 0.1 in r (fractions of 0.5), 18 degrees, 0.2
-    moves = [((l, m, n), (0.2, 0.1, 0.2)) for l in range(3) for m in range(3)
-             for n in range(2)]
+    moves = [((i, j, k), (0.2, 0.1, 0.2)) for i in range(3) for j in range(3)
+             for k in range(2)]
     case = ffd_case(
         tmp_path, CYLINDER.format(
             start="0.2 90 0", span="0.5 180 1", around=2,

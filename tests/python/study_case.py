@@ -5,7 +5,6 @@
 
 import pathlib
 import subprocess
-import sys
 
 import pytest
 
@@ -13,7 +12,6 @@ for module in ("yaml", "scipy", "sklearn", "deap", "snakemake", "matplotlib"):
     pytest.importorskip(module)
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT/"scripts"))
 
 # As bash arithmetic, so that many of them cost nothing. It goes on from the time
 # it finds; x beyond 0.9 diverges, y beyond 0.9 hangs
@@ -58,28 +56,33 @@ optimise:
 """
 
 
-def makeStudy(folder, *changes, text=STUDY):
+def make_study(folder, *changes, text=STUDY):
     """The study file, each change a pair (old, new) of words in it."""
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    (folder/"case").mkdir(exist_ok=True)
-    (folder/"case/solver.sh").write_text(
+    (folder / "case").mkdir(exist_ok=True)
+    (folder / "case/solver.sh").write_text(
         "sed -n 's/^\\([a-z]*\\) *\\(.*\\);/\\1=\\2/p' parameters"
-        " > parameters.sh\n" + SOLVER)
-    (folder/"study.yaml").write_text(text)
-    return folder/"study.yaml"
+        " > parameters.sh\n" + SOLVER
+    )
+    (folder / "study.yaml").write_text(text)
+    return folder / "study.yaml"
 
 
 def read(path):
-    from morphStudy.studyFile import Study
+    from morphfoam.study.study_file import Study
+
     return Study(path)
 
 
 def command(*words, status=0):
     """Run morphStudy; returns what it says."""
     done = subprocess.run(
-        [ROOT/"bin/morphStudy", *map(str, words)], text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        [ROOT / "bin/morphStudy", *map(str, words)],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     assert done.returncode == status, done.stdout
     return done.stdout

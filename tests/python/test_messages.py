@@ -8,7 +8,6 @@ Source of truth: the sources, in which each message is found.
 import importlib
 import pathlib
 import re
-import sys
 
 import pytest
 
@@ -17,9 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 @pytest.fixture(scope="module")
 def messages():
-    sys.path.append(str(ROOT/"docs"))
-    yield importlib.import_module("messages")
-    sys.path.remove(str(ROOT/"docs"))
+    return importlib.import_module("messages")
 
 
 def test_every_message_says_what_to_do(messages):

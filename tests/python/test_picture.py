@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The morphFoam authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""scripts/picture.py: what is where in the picture, pixel by pixel. The mesh is
+"""morphfoam.pictures.picture: what is where in the picture, pixel by pixel. The mesh is
 the unit square, its field the x of the cell centres."""
 
 import pathlib
@@ -15,14 +15,12 @@ from boxCase import box
 from foamCase import ROOT, environment
 
 SCRIPT = """
-import sys
-sys.path.insert(0, r"{scripts}")
-from picture import picture
+from morphfoam.pictures.picture import picture
 picture("case", "out/mesh.png", box=(-1, 1, 0, 1), lines=False, width=200)
 picture("case", "out/lines.png", box=(0, 1, 0, 1), width=200)
 picture("case", "out/field.png", box=(0, 1, 0, 1), field="X", range=(0, 1),
         lines=False, width=200)
-for name, options in (("case", {{"time": 3}}), ("empty", {{}})):
+for name, options in (("case", {"time": 3}), ("empty", {})):
     try:
         picture(name, "out/none.png", **options)
     except (ValueError, FileNotFoundError) as error:
@@ -34,30 +32,53 @@ for name, options in (("case", {{"time": 3}}), ("empty", {{}})):
 def pictures(tmp_path_factory):
     """The pictures as arrays of rows of pixels, and what was said."""
     image = pytest.importorskip("matplotlib.image")
-    found = subprocess.run([ROOT/"bin/python3With", "paraview.simple"],
-                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    found = subprocess.run(
+        [ROOT / "bin/python3With", "paraview.simple"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
     if found.returncode or not shutil.which("xvfb-run"):
         pytest.skip("no ParaView")
     folder = tmp_path_factory.mktemp("pictures")
-    case = box(folder/"case", {
-        "sides": ("patch", "xMin xMax yMin yMax"),
-        "front": ("empty", "zMin zMax")}, cells=(4, 4, 1))
+    case = box(
+        folder / "case",
+        {
+            "sides": ("patch", "xMin xMax yMin yMax"),
+            "front": ("empty", "zMin zMax"),
+        },
+        cells=(4, 4, 1),
+    )
     # The times are those of folders: 1 and 2
     for time in ("1", "2"):
-        case.write(f"{time}/X", "volScalarField", """
+        case.write(
+            f"{time}/X",
+            "volScalarField",
+            """
             dimensions [0 0 0 0 0 0 0]; internalField nonuniform List<scalar> 16
-            (""" + " ".join("0.125 0.375 0.625 0.875" for _ in range(4)) + """);
+            ("""
+            + " ".join("0.125 0.375 0.625 0.875" for _ in range(4))
+            + """);
             boundaryField { sides { type zeroGradient; } front { type empty; } }
-            """)
-    (folder/"empty").mkdir()
-    (folder/"script.py").write_text(SCRIPT.format(scripts=ROOT/"scripts"))
+            """,
+        )
+    (folder / "empty").mkdir()
+    (folder / "script.py").write_text(SCRIPT)
     done = subprocess.run(
-        [ROOT/"bin/withDisplay", found.stdout.decode().strip(), "script.py"],
-        cwd=folder, text=True, env=environment(),
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        [ROOT / "bin/withDisplay", found.stdout.decode().strip(), "script.py"],
+        cwd=folder,
+        text=True,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     assert done.returncode == 0, done.stdout
-    return ({path.stem: image.imread(path)[:, :, :3]
-             for path in pathlib.Path(folder/"out").iterdir()}, done.stdout)
+    return (
+        {
+            path.stem: image.imread(path)[:, :, :3]
+            for path in pathlib.Path(folder / "out").iterdir()
+        },
+        done.stdout,
+    )
 
 
 def test_the_box_is_what_the_picture_shows(pictures):
@@ -75,8 +96,8 @@ def test_lines_are_where_the_cells_meet(pictures):
     # through the middle of cells
     for row in (dark[75], dark[:, 75]):
         at = np.flatnonzero(row[5:-5]) + 5
-        assert sorted({round(k/50) for k in at}) == [1, 2, 3]
-        assert np.abs(at/50 - np.round(at/50)).max() < 0.05
+        assert sorted({round(k / 50) for k in at}) == [1, 2, 3]
+        assert np.abs(at / 50 - np.round(at / 50)).max() < 0.05
 
 
 def test_colours_follow_the_field(pictures):

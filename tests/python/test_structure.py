@@ -76,7 +76,7 @@ def test_numerics_knows_nothing_of_openfoam():
 
 def test_wmake_can_tell_all_files_apart():
     names = [p.name for folder in ("src", "applications", "benchmarks", "tests",
-                                     "tutorials")
+                                   "tutorials")
              for p in sources(folder)]
     assert sorted(names) == sorted(set(names))
 
@@ -99,7 +99,7 @@ def test_version_switches_are_in_one_header():
 
 def test_every_source_says_whose_it_is_and_under_which_licence():
     files = [path for folder in ("src", "applications", "benchmarks", "tests",
-                                 "tutorials", "scripts")
+                                 "tutorials", "python", "docs")
              for path in (ROOT/folder).rglob("*")
              if path.suffix in (".C", ".H", ".cpp", ".hpp", ".py")
              and not GENERATED.intersection(path.parts[len(ROOT.parts):])]

@@ -9,94 +9,120 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from morphStudyCase import makeStudy, read
+from study_case import make_study, read
 
-from morphStudy import (
-    designs, fit, metamodel, optimise, outcomes, pareto, report)
-from morphStudy.errors import StudyError
+from morphfoam.study import (
+    designs,
+    fit,
+    metamodel,
+    optimise,
+    outcomes,
+    pareto,
+    report,
+)
+from morphfoam.study.errors import StudyError
 
 
 def branin(x):
     """On [0, 1]^2; Forrester et al. 2008, Engineering Design via Surrogate
     Modelling, appendix."""
-    a, b = 15*x[:, 0] - 5, 15*x[:, 1]
-    return ((b - 5.1/(4*np.pi**2)*a**2 + 5/np.pi*a - 6)**2
-            + 10*(1 - 1/(8*np.pi))*np.cos(a) + 10)
+    a, b = 15 * x[:, 0] - 5, 15 * x[:, 1]
+    return (
+        (b - 5.1 / (4 * np.pi**2) * a**2 + 5 / np.pi * a - 6) ** 2
+        + 10 * (1 - 1 / (8 * np.pi)) * np.cos(a)
+        + 10
+    )
 
 
 @pytest.fixture(scope="module")
-def unitStudy(tmp_path_factory):
-    return read(makeStudy(tmp_path_factory.mktemp("unit")))
+def unit_study(tmp_path_factory):
+    return read(make_study(tmp_path_factory.mktemp("unit")))
 
 
 def points(n, seed=1):
     return qmc.LatinHypercube(2, seed=seed, optimization="random-cd").random(n)
 
 
-def test_leave_one_out_tells_how_good_a_model_is_elsewhere(unitStudy):
+def test_leave_one_out_tells_how_good_a_model_is_elsewhere(unit_study):
     x = points(40)
-    model = metamodel.fit(unitStudy, "f", x, branin(x))
+    model = metamodel.fit(unit_study, "f", x, branin(x))
     others = np.random.default_rng(5).random((1000, 2))
     truth = branin(others)
-    q2 = 1 - np.sum((model(others) - truth)**2)/np.sum(
-        (truth - truth.mean())**2)
+    q2 = 1 - np.sum((model(others) - truth) ** 2) / np.sum(
+        (truth - truth.mean()) ** 2
+    )
     assert q2 > 0.98
     assert model.q2 == pytest.approx(q2, abs=0.02)
 
 
-def test_q2_of_noise_is_none(unitStudy):
+def test_q2_of_noise_is_none(unit_study):
     x = points(40)
     noise = np.random.default_rng(2).normal(size=40)
-    assert metamodel.fit(unitStudy, "f", x, noise).q2 < 0.3
+    assert metamodel.fit(unit_study, "f", x, noise).q2 < 0.3
 
 
-def test_noise_is_told_from_the_response(unitStudy):
+def test_noise_is_told_from_the_response(unit_study):
     x = points(60)
     noise = np.random.default_rng(3).normal(scale=0.05, size=60)
-    model = metamodel.fit(unitStudy, "f", x, np.sin(3*x[:, 0]) + noise)
+    model = metamodel.fit(unit_study, "f", x, np.sin(3 * x[:, 0]) + noise)
     # The standard deviation of 60 values is known to 1/sqrt(120) = 9 %
     assert model.noise == pytest.approx(0.05, rel=0.3)
     # and y has no influence
-    assert model.lengths[1] > 5*model.lengths[0]
+    assert model.lengths[1] > 5 * model.lengths[0]
 
 
-def test_leave_one_out_is_the_closed_form_of_it(unitStudy):
+def test_leave_one_out_is_the_closed_form_of_it(unit_study):
     """Dubrule 1983, Math. Geol. 15, 687-699: y_i - [C^-1 y]_i/[C^-1]_ii for
     known mean; here for the mean of those that are left."""
     x = points(15)
     y = branin(x)
-    model = metamodel.fit(unitStudy, "f", x, y)
+    model = metamodel.fit(unit_study, "f", x, y)
     covariance = model.process.kernel_(x)
     for i in (0, 7):
         others = np.arange(15) != i
         mean = y[others].mean()
-        weights = np.linalg.solve(covariance[np.ix_(others, others)],
-                                  covariance[others, i])
+        weights = np.linalg.solve(
+            covariance[np.ix_(others, others)], covariance[others, i]
+        )
         # The scale of the response left out changes nothing; the noise does
         assert model.predicted[i] == pytest.approx(
-            mean + weights @ (y[others] - mean), rel=1e-6)
+            mean + weights @ (y[others] - mean), rel=1e-6
+        )
 
 
-def test_too_few_designs_are_an_error(unitStudy):
+def test_too_few_designs_are_an_error(unit_study):
     with pytest.raises(StudyError, match="at least 4"):
-        metamodel.fit(unitStudy, "f", points(3), [1, 2, 3])
+        metamodel.fit(unit_study, "f", points(3), [1, 2, 3])
 
 
-def nsga2(objectives, lows, highs, signs, violation=lambda x: 0*x[:, 0],
-          generations=100):
+def nsga2(
+    objectives,
+    lows,
+    highs,
+    signs,
+    violation=lambda x: 0 * x[:, 0],
+    generations=100,
+):
     return pareto.nsga2(
         lambda x: (objectives(x), violation(x)),
-        np.array(lows), np.array(highs), signs, 100, generations, 1)
+        np.array(lows),
+        np.array(highs),
+        signs,
+        100,
+        generations,
+        1,
+    )
 
 
 def test_front_of_zdt1_is_the_known_one():
     """Zitzler, Deb, Thiele 2000, Evol. Comput. 8, 173-195: f2 = 1 - sqrt(f1),
     x2 = ... = 0."""
-    def zdt1(x):
-        g = 1 + 9*x[:, 1:].mean(axis=1)
-        return np.stack([x[:, 0], g*(1 - np.sqrt(x[:, 0]/g))], axis=1)
 
-    x, f = nsga2(zdt1, [0]*4, [1]*4, [-1, -1])
+    def zdt1(x):
+        g = 1 + 9 * x[:, 1:].mean(axis=1)
+        return np.stack([x[:, 0], g * (1 - np.sqrt(x[:, 0] / g))], axis=1)
+
+    x, f = nsga2(zdt1, [0] * 4, [1] * 4, [-1, -1])
     assert len(x) > 80
     assert np.abs(f[:, 1] - (1 - np.sqrt(f[:, 0]))).max() < 0.02
     assert np.diff(np.sort(f[:, 0])).max() < 0.05
@@ -107,20 +133,23 @@ def test_front_under_constraints_is_the_known_one():
     """CONSTR of Deb et al. 2002: f1 = x, f2 = (1 + y)/x with y + 9x >= 6,
     -y + 9x >= 1: f2 = (7 - 9x)/x for x < 2/3, and y = 0 beyond."""
     x, f = nsga2(
-        lambda x: np.stack([x[:, 0], (1 + x[:, 1])/x[:, 0]], axis=1),
-        [0.1, 0], [1, 5], [-1, -1],
-        lambda x: np.maximum(0, 6 - x[:, 1] - 9*x[:, 0])
-        + np.maximum(0, 1 + x[:, 1] - 9*x[:, 0]))
-    known = np.maximum(7 - 9*f[:, 0], 1)/f[:, 0]
+        lambda x: np.stack([x[:, 0], (1 + x[:, 1]) / x[:, 0]], axis=1),
+        [0.1, 0],
+        [1, 5],
+        [-1, -1],
+        lambda x: np.maximum(0, 6 - x[:, 1] - 9 * x[:, 0])
+        + np.maximum(0, 1 + x[:, 1] - 9 * x[:, 0]),
+    )
+    known = np.maximum(7 - 9 * f[:, 0], 1) / f[:, 0]
     assert (f[:, 1] - known >= -1e-9).all()
     assert np.median(f[:, 1] - known) < 0.02
     # The leftmost feasible x: y = 6 - 9x <= 9x - 1
-    assert f[:, 0].min() == pytest.approx(7/18, abs=0.01)
+    assert f[:, 0].min() == pytest.approx(7 / 18, abs=0.01)
 
 
 def test_maximising_is_minimising_the_opposite():
     def both(x):
-        return np.stack([x[:, 0]**2, (x[:, 0] - 1)**2], axis=1)
+        return np.stack([x[:, 0] ** 2, (x[:, 0] - 1) ** 2], axis=1)
 
     x, f = nsga2(both, [-2], [2], [-1, -1], generations=15)
     _, g = nsga2(lambda x: -both(x), [-2], [2], [1, 1], generations=15)
@@ -132,43 +161,59 @@ def test_maximising_is_minimising_the_opposite():
 def test_clusters_are_counted_and_represented():
     random = np.random.default_rng(4)
     centres = np.array([[0.2, 2], [0.8, 3], [0.5, 7]])
-    x = np.concatenate([c + random.normal(size=(60, 2))*[0.03, 0.3]
-                        for c in centres])
+    x = np.concatenate(
+        [c + random.normal(size=(60, 2)) * [0.03, 0.3] for c in centres]
+    )
     label, chosen, bic = pareto.clusters(
-        x, np.array([0, 0]), np.array([1, 10]), 6, 1)
+        x, np.array([0, 0]), np.array([1, 10]), 6, 1
+    )
     assert len(bic) == 6 and np.argmin(bic) == 2
     for k in range(3):
-        assert len(set(label[60*k:60*k + 60])) == 1
+        assert len(set(label[60 * k : 60 * k + 60])) == 1
     found = x[chosen][np.argsort(x[chosen][:, 1])]
-    assert np.abs((found - centres)/[0.03, 0.3]).max() < 1
+    assert np.abs((found - centres) / [0.03, 0.3]).max() < 1
 
 
 @pytest.fixture(scope="module")
 def optimised(tmp_path_factory):
     """A study with its outcomes, as if run, fitted and optimised."""
-    study = read(makeStudy(
-        tmp_path_factory.mktemp("optimised"),
-        ("sampling:", "constraints: [x + y >= 0.4]\nsampling:"),
-        ("g: minimise}", "g: minimise}\n  constraints: [f <= 1.2]")))
+    study = read(
+        make_study(
+            tmp_path_factory.mktemp("optimised"),
+            ("sampling:", "constraints: [x + y >= 0.4]\nsampling:"),
+            ("g: minimise}", "g: minimise}\n  constraints: [f <= 1.2]"),
+        )
+    )
     rows = points(24, seed=3)
     designs.add(study, rows[study.feasible(rows)], designs.SAMPLED)
     for strategy, slower in (("morph", 1), ("remesh", 3)):
         for d in designs.read(study):
             x, y = d.parameters.values()
-            outcomes.write(study, {
-                "strategy": strategy, "number": d.number,
-                "status": "done" if d.number != 3 else "failed",
-                "reason": "" if d.number != 3 else "solve: <diverged>",
-                "parameters": d.parameters, "derived": {},
-                "responses": {"f": x*x + y, "g": 1 - x*y},
-                "notes": {}, "quality": {}, "motion": {}, "picture": "",
-                "iterations": 10*slower, "wall": {"solve": slower},
-                "cpu": {"solve": slower},
-                "attempts": 1, "startedFrom": "baseline",
-                "made": outcomes.recipe(study, strategy),
-                "responseTexts": outcomes.responseTexts(study)})
+            outcomes.write(
+                study,
+                {
+                    "strategy": strategy,
+                    "number": d.number,
+                    "status": "done" if d.number != 3 else "failed",
+                    "reason": "" if d.number != 3 else "solve: <diverged>",
+                    "parameters": d.parameters,
+                    "derived": {},
+                    "responses": {"f": x * x + y, "g": 1 - x * y},
+                    "notes": {},
+                    "quality": {},
+                    "motion": {},
+                    "picture": "",
+                    "iterations": 10 * slower,
+                    "wall": {"solve": slower},
+                    "cpu": {"solve": slower},
+                    "attempts": 1,
+                    "startedFrom": "baseline",
+                    "made": outcomes.recipe(study, strategy),
+                    "responseTexts": outcomes.response_texts(study),
+                },
+            )
     fit.fit(study)
-    optimise.optimise(study, noRuns=True)
+    optimise.optimise(study, no_runs=True)
     return study
 
 
@@ -178,42 +223,54 @@ def column(path, name):
 
 
 def test_models_leave_failed_designs_out(optimised):
-    path = optimised.folder/"fit.morph/leaveOneOut.csv"
+    path = optimised.folder / "fit.morph/leaveOneOut.csv"
     with path.open() as file:
         assert "0003" not in {row["design"] for row in csv.DictReader(file)}
-    assert (column(optimised.folder/"fit.morph/models.csv", "Q2") > 0.99).all()
+    assert (
+        column(optimised.folder / "fit.morph/models.csv", "Q2") > 0.99
+    ).all()
 
 
 def test_the_front_keeps_to_the_constraints_of_both_kinds(optimised):
-    path = optimised.folder/"optimise.morph/front.csv"
+    path = optimised.folder / "optimise.morph/front.csv"
     x, y, f, g = (column(path, name) for name in "xyfg")
-    assert (x + y >= 0.4*(1 - 1e-9)).all() and (f <= 1.2 + 1e-9).all()
+    assert (x + y >= 0.4 * (1 - 1e-9)).all() and (f <= 1.2 + 1e-9).all()
     # x y is largest at given f = x^2 + y where x^2 = f/3, y = 2 f/3
     assert f.max() > 1.19 and len(f) > 20
-    missed = np.abs(g - (1 - 2*(f/3)**1.5))[f > 0.3]
+    missed = np.abs(g - (1 - 2 * (f / 3) ** 1.5))[f > 0.3]
     assert missed.max() < 0.03 and np.median(missed) < 0.003
 
 
 def test_representatives_become_designs_once(optimised):
-    before = [d.number for d in designs.read(optimised)
-              if d.origin == designs.VERIFICATION]
+    before = [
+        d.number
+        for d in designs.read(optimised)
+        if d.origin == designs.VERIFICATION
+    ]
     assert before
-    optimise.optimise(optimised, noRuns=True)
-    assert before == [d.number for d in designs.read(optimised)
-                      if d.origin == designs.VERIFICATION]
+    optimise.optimise(optimised, no_runs=True)
+    assert before == [
+        d.number
+        for d in designs.read(optimised)
+        if d.origin == designs.VERIFICATION
+    ]
 
 
 def test_predicted_and_computed_are_set_against_each_other(optimised):
-    verified = [d for d in designs.read(optimised)
-                if d.origin == designs.VERIFICATION]
+    verified = [
+        d for d in designs.read(optimised) if d.origin == designs.VERIFICATION
+    ]
     found = fit.models(optimised, "morph")
     value = float(found["f"](designs.points(optimised, verified[:1]))[0])
-    outcome = {**outcomes.read(optimised, "morph", 1),
-               "number": verified[0].number,
-               "responses": {"f": value/1.1, "g": 0.5}}
+    outcome = {
+        **outcomes.read(optimised, "morph", 1),
+        "number": verified[0].number,
+        "responses": {"f": value / 1.1, "g": 0.5},
+    }
     outcomes.write(optimised, outcome)
     row, *rest = optimise.compare(
-        optimised, "morph", found, verified, range(len(verified)))
+        optimised, "morph", found, verified, range(len(verified))
+    )
     assert row["f.error%"] == pytest.approx(10)
     assert all(r["status"] == "not run" and r["f.error%"] == "" for r in rest)
     outcomes.path(optimised, "morph", verified[0].number).unlink()
@@ -221,21 +278,30 @@ def test_predicted_and_computed_are_set_against_each_other(optimised):
 
 def test_the_report_has_what_there_is(optimised):
     report.report(optimised)
-    page = (optimised.folder/"report.html").read_text()
-    for words in ("Strategies compared", "Metamodels", "Optima",
-                  "solve: &lt;diverged&gt;", "x + y &gt;= 0.4"):
+    page = (optimised.folder / "report.html").read_text()
+    for words in (
+        "Strategies compared",
+        "Metamodels",
+        "Optima",
+        "solve: &lt;diverged&gt;",
+        "x + y &gt;= 0.4",
+    ):
         assert words in page
-    assert page.count("<img ") >= 6 and "src=\"data:image/png" in page
+    assert page.count("<img ") >= 6 and 'src="data:image/png' in page
     assert "http" not in page
-    table = report.compare(optimised, {
-        name: [{"iterations": k, "time": 2*k, "f": 1 + k/100, "g": 1}]
-        for name, k in (("morph", 1), ("remesh", 3))})
+    table = report.compare(
+        optimised,
+        {
+            name: [{"iterations": k, "time": 2 * k, "f": 1 + k / 100, "g": 1}]
+            for name, k in (("morph", 1), ("remesh", 3))
+        },
+    )
     assert table[1]["iterations"] == 3
-    assert table[1]["f: largest %"] == pytest.approx(100*0.02/1.01)
+    assert table[1]["f: largest %"] == pytest.approx(100 * 0.02 / 1.01)
 
 
 def test_optimising_without_objectives_says_what_to_add(tmp_path):
-    path = makeStudy(tmp_path)
+    path = make_study(tmp_path)
     path.write_text(path.read_text().split("optimise:")[0])
     with pytest.raises(StudyError, match="has no optimise"):
         optimise.optimise(read(path))

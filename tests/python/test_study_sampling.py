@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 """Where designs are put. Sources of truth: the definitions of the methods
-(scripts/morphStudy/sampling.py names them), scipy's own sequences."""
+(python/morphfoam/study/sampling.py names them), scipy's own sequences."""
 
 import itertools
 
@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from morphStudyCase import makeStudy, read
+from study_case import make_study, read
 
-from morphStudy import designs, sample, sampling
-from morphStudy.errors import StudyError
+from morphfoam.study import designs, sample, sampling
+from morphfoam.study.errors import StudyError
 
 CUBE = """
 template: case
@@ -34,11 +34,11 @@ RIB = ("constraints: []", "constraints: [E >= 0.9*e, E <= 0.9*e + 0.35]")
 
 
 def study(tmp_path, *changes):
-    return read(makeStudy(tmp_path, *changes, text=CUBE))
+    return read(make_study(tmp_path, *changes, text=CUBE))
 
 
 def unit(study, points):
-    return (points - study.lows)/(study.highs - study.lows)
+    return (points - study.lows) / (study.highs - study.lows)
 
 
 def sampled(study, existing=()):
@@ -48,8 +48,10 @@ def sampled(study, existing=()):
 def strata(study, points):
     """How many designs are in each stratum of each parameter."""
     n = len(points)
-    return [np.bincount((unit(study, points)[:, j]*n).astype(int), minlength=n)
-            for j in range(3)]
+    return [
+        np.bincount((unit(study, points)[:, j] * n).astype(int), minlength=n)
+        for j in range(3)
+    ]
 
 
 def test_latin_hypercube_has_one_design_in_each_stratum(tmp_path):
@@ -60,10 +62,16 @@ def test_latin_hypercube_has_one_design_in_each_stratum(tmp_path):
 
 def test_latin_hypercube_is_farther_apart_than_random_ones(tmp_path):
     one = study(tmp_path)
-    random = [sampling.smallestDistance(
-        one, one.lows + qmc.LatinHypercube(3, seed=s).random(30)
-        *(one.highs - one.lows)) for s in range(100)]
-    assert sampling.smallestDistance(one, sampled(one)) > 1.3*max(random)
+    random = [
+        sampling.smallest_distance(
+            one,
+            one.lows
+            + qmc.LatinHypercube(3, seed=s).random(30)
+            * (one.highs - one.lows),
+        )
+        for s in range(100)
+    ]
+    assert sampling.smallest_distance(one, sampled(one)) > 1.3 * max(random)
 
 
 def test_latin_hypercube_under_constraints_fills_the_feasible_strata(tmp_path):
@@ -72,21 +80,29 @@ def test_latin_hypercube_under_constraints_fills_the_feasible_strata(tmp_path):
     assert len(points) == 30 and one.feasible(points).all()
     # Strata of equal share of the feasible set, found here from other points
     random = np.random.default_rng(99)
-    probes = one.lows + random.random((200000, 3))*(one.highs - one.lows)
+    probes = one.lows + random.random((200000, 3)) * (one.highs - one.lows)
     probes = probes[one.feasible(probes)]
     for j in range(3):
-        share = np.searchsorted(np.sort(probes[:, j]), points[:, j])/len(probes)
+        share = np.searchsorted(np.sort(probes[:, j]), points[:, j]) / len(
+            probes
+        )
         # A stratum is 1/30 wide; its edges are known to some 0.004
-        assert np.abs(np.sort(share) - (np.arange(30) + 0.5)/30).max() < (
-            0.5/30 + 0.01)
+        assert np.abs(np.sort(share) - (np.arange(30) + 0.5) / 30).max() < (
+            0.5 / 30 + 0.01
+        )
 
 
 @pytest.mark.parametrize("method", ["latinHypercube", "sobol"])
 @pytest.mark.parametrize("constraint", [(), (RIB,)])
 def test_more_designs_leave_those_there_are_where_they_are(
-        tmp_path, method, constraint):
-    few = study(tmp_path, *constraint, ("latinHypercube", method),
-                ("designs: 30", "designs: 10"))
+    tmp_path, method, constraint
+):
+    few = study(
+        tmp_path,
+        *constraint,
+        ("latinHypercube", method),
+        ("designs: 30", "designs: 10"),
+    )
     sample.sample(few)
     before = designs.path(few).read_text()
     more = study(tmp_path, *constraint, ("latinHypercube", method))
@@ -96,7 +112,7 @@ def test_more_designs_leave_those_there_are_where_they_are(
     assert [d.number for d in table] == list(range(1, 31))
     points = designs.points(more, table)
     assert more.feasible(points).all()
-    assert sampling.smallestDistance(more, points) > 0.02
+    assert sampling.smallest_distance(more, points) > 0.02
     if method == "latinHypercube" and not constraint:
         # The first ten may share strata of the thirty; the others fill up
         assert max(counts.max() for counts in strata(more, points)) <= 2
@@ -121,35 +137,53 @@ def test_the_seed_alone_decides(tmp_path):
 
 def test_sobol_is_the_sequence_without_what_is_infeasible(tmp_path):
     one = study(tmp_path, RIB, ("latinHypercube", "sobol"))
-    sequence = one.lows + qmc.Sobol(3, seed=3).random(256)*(
-        one.highs - one.lows)
+    sequence = one.lows + qmc.Sobol(3, seed=3).random(256) * (
+        one.highs - one.lows
+    )
     np.testing.assert_array_equal(
-        sampled(one), sequence[one.feasible(sequence)][:30])
+        sampled(one), sequence[one.feasible(sequence)][:30]
+    )
 
 
 def test_factorial_is_the_grid_without_what_is_infeasible(tmp_path):
-    one = study(tmp_path, RIB, ("latinHypercube, designs: 30, seed: 3",
-                                "factorial, levels: {h: 1, e: 4, E: 3}"))
-    grid = [(0.1725, e, E) for e, E in itertools.product(
-        np.linspace(0.09, 1.26, 4), np.linspace(0.081, 1.44, 3))
-        if 0.9*e <= E + 1e-12 and E <= 0.9*e + 0.35]
+    one = study(
+        tmp_path,
+        RIB,
+        (
+            "latinHypercube, designs: 30, seed: 3",
+            "factorial, levels: {h: 1, e: 4, E: 3}",
+        ),
+    )
+    grid = [
+        (0.1725, e, E)
+        for e, E in itertools.product(
+            np.linspace(0.09, 1.26, 4), np.linspace(0.081, 1.44, 3)
+        )
+        if 0.9 * e <= E + 1e-12 and E <= 0.9 * e + 0.35
+    ]
     # e = 0.09, E = 0.081 lies on the constraint, but for rounding
     assert (0.1725, 0.09, 0.081) in grid
     np.testing.assert_allclose(sampled(one), grid)
 
 
 def test_finer_levels_add_to_a_grid(tmp_path):
-    coarse = study(tmp_path, ("latinHypercube, designs: 30, seed: 3",
-                              "factorial, levels: 2"))
-    fine = study(tmp_path, ("latinHypercube, designs: 30, seed: 3",
-                            "factorial, levels: 3"))
+    coarse = study(
+        tmp_path,
+        ("latinHypercube, designs: 30, seed: 3", "factorial, levels: 2"),
+    )
+    fine = study(
+        tmp_path,
+        ("latinHypercube, designs: 30, seed: 3", "factorial, levels: 3"),
+    )
     assert len(sampled(fine, sampled(coarse))) == 27 - 8
 
 
 def test_a_grid_that_misses_the_feasible_set_is_an_error(tmp_path):
-    one = study(tmp_path, ("constraints: []", "constraints: [0.1 < h < 0.12]"),
-                ("latinHypercube, designs: 30, seed: 3",
-                 "factorial, levels: 2"))
+    one = study(
+        tmp_path,
+        ("constraints: []", "constraints: [0.1 < h < 0.12]"),
+        ("latinHypercube, designs: 30, seed: 3", "factorial, levels: 2"),
+    )
     with pytest.raises(StudyError, match="no point of the grid"):
         sampled(one)
 
@@ -160,7 +194,10 @@ def test_verifications_are_no_part_of_the_sampling(tmp_path):
     designs.add(one, [one.lows], designs.VERIFICATION)
     sample.sample(study(tmp_path, ("designs: 30", "designs: 6")))
     assert [d.origin for d in designs.read(one)] == [
-        *["sample"]*4, "verification", *["sample"]*2]
+        *["sample"] * 4,
+        "verification",
+        *["sample"] * 2,
+    ]
 
 
 def test_designs_of_other_parameters_are_not_taken(tmp_path):

@@ -13,7 +13,6 @@
 
 import functools
 import hashlib
-import os
 import pathlib
 import re
 import subprocess

@@ -8,10 +8,11 @@ import importlib.util
 import os
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from morphfoam.output.tables import read_columns
 
 from tutorialCase import ROOT, run, tutorial
 
@@ -25,8 +26,10 @@ def case(tmp_path_factory):
 def flow(case):
     run(case, "./Allrun", "-noPictures")
     with (case / "results/restart.csv").open() as file:
-        return {(row["pitch [deg]"], row["start"]): row
-                for row in csv.DictReader(file)}
+        return {
+            (row["pitch [deg]"], row["start"]): row
+            for row in csv.DictReader(file)
+        }
 
 
 @pytest.mark.parametrize("pitch", ["1", "10"])
@@ -37,13 +40,15 @@ def test_restart_and_uniform_start_end_at_the_same_forces(flow, pitch):
     # between the two starts on a mesh pitched by displacementSBRStress)
     for name in ("Cl", "Cd", "Cm"):
         assert float(restart[name]) == pytest.approx(
-            float(uniform[name]), rel=1e-3)
+            float(uniform[name]), rel=1e-3
+        )
 
 
 def test_restart_after_a_small_pitch_saves_iterations(flow):
     # measured on a mesh of displacementSBRStress: 299 against 381
-    restart, uniform = (int(flow["1", start]["iterations"])
-                        for start in ("restart", "uniform"))
+    restart, uniform = (
+        int(flow["1", start]["iterations"]) for start in ("restart", "uniform")
+    )
     assert restart < 0.9 * uniform
 
 
@@ -52,15 +57,15 @@ def test_lift_hardly_depends_on_which_solver_moved_the_mesh(flow):
     # by the same angle; the pitch changes Cl by 1.05, of which the meshes away
     # from the wall may cost one per cent
     assert float(flow["10", "restart"]["Cl"]) == pytest.approx(
-        -0.0717, abs=0.0105)
+        -0.0717, abs=0.0105
+    )
 
 
 def test_mesh_pitched_by_ten_degrees_keeps_its_quality(case, flow):
-    sys.path.insert(0, str(ROOT / "scripts"))
-    from foamOutput import readColumns
-    path, = (case / "runs/pitched10/postProcessing/morphMesh").glob(
-        "*/quality.dat")
-    quality = readColumns(path)
+    (path,) = (case / "runs/pitched10/postProcessing/morphMesh").glob(
+        "*/quality.dat"
+    )
+    quality = read_columns(path)
     assert quality["wronglyOrientedFaces"][-1] == 0
     assert quality["nonPositiveCells"][-1] == 0
     # The undeformed mesh has 41.6 and 0.983; a rotation by 10 degrees spread
@@ -73,8 +78,11 @@ def test_mesh_pitched_by_ten_degrees_keeps_its_quality(case, flow):
 def angles(case):
     """The script as a module, with a mesh in place"""
     path = subprocess.run(
-        ["bash", "-c", ". etc/bashrc; echo \"$FOAM_TUTORIALS\"; env -0"],
-        cwd=ROOT, stdout=subprocess.PIPE, check=True).stdout
+        ["bash", "-c", '. etc/bashrc; echo "$FOAM_TUTORIALS"; env -0'],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        check=True,
+    ).stdout
     tutorials, environment = path.split(b"\n", 1)
     for item in environment.decode().split("\0"):
         name, _, value = item.partition("=")
@@ -83,10 +91,11 @@ def angles(case):
     mesh = case / "constant/polyMesh"
     if not mesh.exists():
         shutil.copytree(
-            Path(tutorials.decode()) /
-            "incompressible/simpleFoam/airFoil2D/constant/polyMesh", mesh)
-    spec = importlib.util.spec_from_file_location(
-        "angles", case / "angles.py")
+            Path(tutorials.decode())
+            / "incompressible/simpleFoam/airFoil2D/constant/polyMesh",
+            mesh,
+        )
+    spec = importlib.util.spec_from_file_location("angles", case / "angles.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -94,15 +103,16 @@ def angles(case):
 
 @pytest.mark.parametrize("linearSolver", ["usual", "converged"])
 def test_uniform_laplacian_is_valid_at_one_degree_and_not_at_two(
-        angles, linearSolver):
+    angles, linear_solver
+):
     # moveDynamicMesh's own mesh check says the same
-    row = angles.inOneStep("laplacianUniform", linearSolver, [1, 2])
+    row = angles.in_one_step("laplacianUniform", linear_solver, [1, 2])
     assert row["largest valid [deg]"] == 1
     assert row["first invalid [deg]"] == 2
 
 
 def test_rbf_is_valid_at_ninety_degrees_in_one_step(angles):
-    row = angles.inOneStep("rbf", "usual", [90])
+    row = angles.in_one_step("rbf", "usual", [90])
     assert row["largest valid [deg]"] == 90
     # measured before with another implementation, same settings: 62, and
     # below 1

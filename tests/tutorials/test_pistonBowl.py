@@ -13,6 +13,7 @@ import pytest
 
 from tutorialCase import run, tutorial
 
+
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
     case = tutorial("pistonBowl", tmp_path_factory.mktemp("piston"))

@@ -18,7 +18,7 @@ def tutorial(name, folder):
     """A copy of a tutorial as it is in the repository, in a house of its own."""
     house = Path(folder)/"house"
     house.mkdir()
-    for part in ("bin", "etc", "scripts", "build"):
+    for part in ("bin", "etc", "python", "build"):
         (house/part).symlink_to(ROOT/part)
     # Others may be referred to, and are not changed
     (house/"tutorials").mkdir()

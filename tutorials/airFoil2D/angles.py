@@ -21,30 +21,35 @@ import subprocess
 import sys
 from pathlib import Path
 
+from morphfoam.output.tables import read_columns, write_table
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import readColumns, writeTable  # noqa: E402
 
 laplacians = ["laplacianUniform", "laplacianInverse", "laplacianQuadratic"]
 invalid = re.compile(r"incorrectly oriented|negative cell volume")
 
 
-def makeCase(motion, linearSolver, step=1):
+def make_case(motion, linear_solver, step=1):
     """A fresh case in runs/angles: the shared dictionaries and the mesh"""
-    case = here / "runs/angles" / f"{motion}.{linearSolver}.{step:g}"
+    case = here / "runs/angles" / f"{motion}.{linear_solver}.{step:g}"
     shutil.rmtree(case, ignore_errors=True)
-    shutil.copytree(here / "angles", case,
-                    ignore=shutil.ignore_patterns("motions", "linearSolvers"))
+    shutil.copytree(
+        here / "angles",
+        case,
+        ignore=shutil.ignore_patterns("motions", "linearSolvers"),
+    )
     shutil.copytree(here / "constant/polyMesh", case / "constant/polyMesh")
     shutil.copy(here / "angles/motions" / motion, case / "constant/motion")
-    shutil.copy(here / "angles/linearSolvers" / linearSolver,
-                case / "system/linearSolver")
+    shutil.copy(
+        here / "angles/linearSolvers" / linear_solver,
+        case / "system/linearSolver",
+    )
     (case / "system/angleStep").write_text(f"deltaT {step};\n")
     (case / "0.orig").rename(case / "0")
     return case
 
 
-def oneStep(case, angle):
+def one_step(case, angle):
     """Applies the motion once to the undeformed mesh; whether the result is
     valid. What an earlier angle wrote goes first: it would be the mesh to
     start from."""
@@ -54,7 +59,9 @@ def oneStep(case, angle):
     with (case / f"log.morphMesh.{angle}").open("w") as log:
         status = subprocess.run(
             ["morphMesh", "-case", case, "-time", str(angle)],
-            stdout=log, stderr=subprocess.STDOUT).returncode
+            stdout=log,
+            stderr=subprocess.STDOUT,
+        ).returncode
     text = (case / f"log.morphMesh.{angle}").read_text()
     failed = "FOAM FATAL" in text and "invalid" not in text
     if failed or status not in (0, 1):
@@ -62,25 +69,35 @@ def oneStep(case, angle):
     return status == 0
 
 
-def inOneStep(motion, linearSolver, angles):
-    case = makeCase(motion, linearSolver)
+def in_one_step(motion, linear_solver, angles):
+    case = make_case(motion, linear_solver)
     valid = 0
     for angle in angles:
-        if not oneStep(case, angle):
-            return row(motion, linearSolver, "one", valid, angle)
+        if not one_step(case, angle):
+            return row(motion, linear_solver, "one", valid, angle)
         valid = angle
-    return row(motion, linearSolver, "one", valid, "none found",
-               readColumns(case / "postProcessing/morphMesh" / str(valid) /
-                           "quality.dat"))
+    return row(
+        motion,
+        linear_solver,
+        "one",
+        valid,
+        "none found",
+        read_columns(
+            case / "postProcessing/morphMesh" / str(valid) / "quality.dat"
+        ),
+    )
 
 
-def inManySteps(motion, linearSolver, step):
-    case = makeCase(motion, linearSolver, step)
+def in_many_steps(motion, linear_solver, step):
+    case = make_case(motion, linear_solver, step)
     time, valid = 0.0, 0.0
     with (case / "log.moveDynamicMesh").open("w") as log:
         process = subprocess.Popen(
-            ["moveDynamicMesh", "-case", case], text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            ["moveDynamicMesh", "-case", case],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         for line in process.stdout:
             log.write(line)
             if line.startswith("Time = "):
@@ -88,43 +105,50 @@ def inManySteps(motion, linearSolver, step):
             elif invalid.search(line):
                 process.kill()
                 process.wait()
-                return row(motion, linearSolver, f"of {step:g} deg",
-                           valid, time)
+                return row(
+                    motion, linear_solver, f"of {step:g} deg", valid, time
+                )
         if process.wait():
             sys.exit(f"Error: moveDynamicMesh failed, see {log.name}")
-    return row(motion, linearSolver, f"of {step:g} deg", time, "none found")
+    return row(motion, linear_solver, f"of {step:g} deg", time, "none found")
 
 
-def row(motion, linearSolver, steps, valid, firstInvalid, quality=None):
+def row(motion, linear_solver, steps, valid, first_invalid, quality=None):
     return {
         "motion": motion,
-        "linear solver": "" if motion == "rbf" else linearSolver,
+        "linear solver": "" if motion == "rbf" else linear_solver,
         "steps": steps,
         "largest valid [deg]": valid,
-        "first invalid [deg]": firstInvalid,
+        "first invalid [deg]": first_invalid,
         "max non-orthogonality": quality["maxNonOrthogonality"][-1]
-        if quality else "",
+        if quality
+        else "",
         "max skewness": quality["maxSkewness"][-1] if quality else "",
     }
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("-rbfOnly", action="store_true")
+    parser.add_argument("-rbfOnly", dest="rbf_only", action="store_true")
     parser.add_argument("-largest", type=int, default=90)
-    parser.add_argument("-smallSteps", action="store_true")
+    parser.add_argument("-smallSteps", dest="small_steps", action="store_true")
     options = parser.parse_args()
 
     rows = []
-    for motion in [] if options.rbfOnly else laplacians + ["SBRStress"]:
-        for linearSolver in ("usual", "converged"):
-            rows.append(inOneStep(motion, linearSolver,
-                                  range(1, options.largest + 1)))
-            rows.append(inManySteps(motion, linearSolver, 1))
-        if options.smallSteps:
-            rows.append(inManySteps(motion, "converged", 0.1))
-    rows.append(inOneStep("rbf", "usual", range(10, options.largest + 1, 10)))
-    writeTable(rows, here / "results/angles")
+    for motion in [] if options.rbf_only else laplacians + ["SBRStress"]:
+        for linear_solver in ("usual", "converged"):
+            rows.append(
+                in_one_step(
+                    motion, linear_solver, range(1, options.largest + 1)
+                )
+            )
+            rows.append(in_many_steps(motion, linear_solver, 1))
+        if options.small_steps:
+            rows.append(in_many_steps(motion, "converged", 0.1))
+    rows.append(
+        in_one_step("rbf", "usual", range(10, options.largest + 1, 10))
+    )
+    write_table(rows, here / "results/angles")
 
 
 if __name__ == "__main__":

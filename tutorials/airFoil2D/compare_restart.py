@@ -7,19 +7,18 @@ Run after Allrun's flow solutions; writes results/restart.csv and .md and
 prints the table.
 """
 
-import sys
 from pathlib import Path
 
+from morphfoam.output.tables import iterations, read_columns, write_table
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import iterations, readColumns, writeTable  # noqa: E402
 
 
 def row(angle, start):
     case = here / f"runs/{start}{angle}"
     steps, converged = iterations(case / "log.simpleFoam")
-    output, = (case / "postProcessing/forces").glob("*/coefficient.dat")
-    forces = readColumns(output)
+    (output,) = (case / "postProcessing/forces").glob("*/coefficient.dat")
+    forces = read_columns(output)
     return {
         "pitch [deg]": angle,
         "start": {"pitched": "restart", "uniform": "uniform"}[start],
@@ -31,7 +30,7 @@ def row(angle, start):
     }
 
 
-writeTable(
+write_table(
     [row(a, start) for a in (1, 10) for start in ("pitched", "uniform")],
     here / "results/restart",
 )

@@ -3,12 +3,11 @@
 
 """The tutorial's pictures, in results/: mesh and pressure before and after."""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.picture import picture
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from picture import picture  # noqa: E402
 
 whole = (-24, 24, -13, 13)
 nose = (-20, -10, -3, 3.5)

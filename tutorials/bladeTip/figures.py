@@ -8,14 +8,17 @@ from pathlib import Path
 
 import numpy as np
 
+from morphfoam.output.mesh_files import patch_points, read_vectors
+from morphfoam.output.tables import write_table
+
 from passage import CASING, MESH, PITCH, TIP, blade, polar
-from foamOutput import writeTable
-from meshFiles import patchPoints, readVectors
 
 here = Path(__file__).resolve().parent
-before = readVectors(here / "constant/polyMesh/points")
-points = {name: patchPoints(MESH, name)
-          for name in ("left", "right", "casing", "blade")}
+before = read_vectors(here / "constant/polyMesh/points")
+points = {
+    name: patch_points(MESH, name)
+    for name in ("left", "right", "casing", "blade")
+}
 
 
 def turned(x):
@@ -35,7 +38,7 @@ def pairs():
 
 def row(images):
     run = here / f"runs/images.{images}"
-    after = readVectors(run / "1/polyMesh/points")
+    after = read_vectors(run / "1/polyMesh/points")
     log = (run / "log.morphMesh").read_text()
     a, b = pairs()
     on = points["blade"]
@@ -49,14 +52,14 @@ def row(images):
         "max non-orthogonality": quality[2],
         "max skewness": quality[3],
         "wrong faces": quality[5],
-        "off casing": np.abs(
-            polar(after[points["casing"]])[2] - CASING).max(),
+        "off casing": np.abs(polar(after[points["casing"]])[2] - CASING).max(),
         "tip gap": np.abs(polar(after[tip])[2] - TIP).max(),
         "off blade": np.abs(after[on] - blade(before[on])).max(),
         "pairs": np.abs(turned(after[a]) - after[b]).max(),
         "motion of the sides": np.linalg.norm(
-            after[a] - before[a], axis=1).max(),
+            after[a] - before[a], axis=1
+        ).max(),
     }
 
 
-writeTable([row("auto"), row("no")], here / "results/figures")
+write_table([row("auto"), row("no")], here / "results/figures")

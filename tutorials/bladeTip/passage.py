@@ -17,20 +17,24 @@ from pathlib import Path
 
 import numpy as np
 
+from morphfoam.output.mesh_files import (
+    patch_points,
+    read_vectors,
+    replace_vectors,
+)
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from meshFiles import patchPoints, readVectors, replaceVectors  # noqa: E402
 
 MESH = here / "constant/polyMesh"
 
 BLADES = 12
 HUB, CASING = 0.5, 1.0
 CHORD = 0.4
-PITCH = 2*np.pi/BLADES
-TIP = HUB + 0.98*(CASING - HUB)
+PITCH = 2 * np.pi / BLADES
+TIP = HUB + 0.98 * (CASING - HUB)
 
-TWIST = np.radians(20)      # of the tip about the blade's own axis
-LEAN = np.radians(6)        # of the tip about the machine's axis
+TWIST = np.radians(20)  # of the tip about the blade's own axis
+LEAN = np.radians(6)  # of the tip about the machine's axis
 
 
 def polar(points):
@@ -40,31 +44,38 @@ def polar(points):
 
 
 def cartesian(x, angle, r):
-    return np.column_stack((x, r*np.sin(angle), r*np.cos(angle)))
+    return np.column_stack((x, r * np.sin(angle), r * np.cos(angle)))
 
 
 def passage(box):
     X, Y, Z = box.T
     inside = np.clip(X, 0, 1)
     # In pitches: half the blade's thickness, blunt at its ends, and camber
-    half = 0.006 + 0.12*inside*(1 - inside)*(1 - 0.4*inside)
-    camber = 0.55*inside*(1 - 0.55*inside) + 0.55*(1 - 1.1)*np.maximum(X - 1, 0)
+    half = 0.006 + 0.12 * inside * (1 - inside) * (1 - 0.4 * inside)
+    camber = 0.55 * inside * (1 - 0.55 * inside) + 0.55 * (
+        1 - 1.1
+    ) * np.maximum(X - 1, 0)
     edge = 0.45
     Y = np.select(
         [Y < edge, Y > 1 - edge],
-        [Y/edge*(0.5 - half), 1 - (1 - Y)/edge*(0.5 - half)],
-        0.5 + (Y - 0.5)/(0.5 - edge)*half)
+        [Y / edge * (0.5 - half), 1 - (1 - Y) / edge * (0.5 - half)],
+        0.5 + (Y - 0.5) / (0.5 - edge) * half,
+    )
     return cartesian(
-        CHORD*X, PITCH*(Y - 0.5 + camber - 0.2), HUB + (CASING - HUB)*Z)
+        CHORD * X, PITCH * (Y - 0.5 + camber - 0.2), HUB + (CASING - HUB) * Z
+    )
 
 
 def mesh():
-    replaceVectors(MESH / "points", passage(readVectors(MESH / "points")))
+    replace_vectors(MESH / "points", passage(read_vectors(MESH / "points")))
     boundary = (MESH / "boundary").read_text()
-    (MESH / "boundary").write_text(re.sub(
-        r"transform\s+\w+;",
-        "transform rotational; rotationAxis (1 0 0); rotationCentre (0 0 0);",
-        boundary))
+    (MESH / "boundary").write_text(
+        re.sub(
+            r"transform\s+\w+;",
+            "transform rotational; rotationAxis (1 0 0); rotationCentre (0 0 0);",
+            boundary,
+        )
+    )
 
 
 def blade(points):
@@ -72,19 +83,23 @@ def blade(points):
     cylinder, by an angle that grows from the hub, and leans. The radius stays,
     and with it the tip gap."""
     x, angle, r = polar(points)
-    s = (r - HUB)/(TIP - HUB)
-    middle = PITCH*(0.55*0.5*(1 - 0.55*0.5) - 0.2)
-    a, b = x - 0.5*CHORD, r*(angle - middle)
-    c, d = np.cos(TWIST*s), np.sin(TWIST*s)
-    return cartesian(0.5*CHORD + c*a - d*b,
-                     middle + (d*a + c*b)/r + LEAN*s, r)
+    s = (r - HUB) / (TIP - HUB)
+    middle = PITCH * (0.55 * 0.5 * (1 - 0.55 * 0.5) - 0.2)
+    a, b = x - 0.5 * CHORD, r * (angle - middle)
+    c, d = np.cos(TWIST * s), np.sin(TWIST * s)
+    return cartesian(
+        0.5 * CHORD + c * a - d * b, middle + (d * a + c * b) / r + LEAN * s, r
+    )
 
 
 def displacement():
-    points = readVectors(MESH / "points")[patchPoints(MESH, "blade")]
+    points = read_vectors(MESH / "points")[patch_points(MESH, "blade")]
     (here / "runs").mkdir(exist_ok=True)
-    np.savetxt(here / "runs/blade.txt",
-               np.hstack((points, blade(points) - points)), fmt="%.17g")
+    np.savetxt(
+        here / "runs/blade.txt",
+        np.hstack((points, blade(points) - points)),
+        fmt="%.17g",
+    )
 
 
 if __name__ == "__main__":

@@ -45,26 +45,44 @@ def save(name, parts, position, focus, up, scale, size):
     view.CameraViewUp = up
     view.CameraParallelScale = scale
     pv.Render(view)
-    pv.SaveScreenshot(str(here / f"results/{name}.png"), view,
-                      ImageResolution=size)
+    pv.SaveScreenshot(
+        str(here / f"results/{name}.png"), view, ImageResolution=size
+    )
     pv.Delete(view)
 
 
 def pictures(name, case):
-    walls = [(opened(case, ["patch/blade"]), [0.85, 0.7, 0.45]),
-             (opened(case, ["patch/hub"]), [0.8, 0.86, 0.93])]
-    save(f"blade.{name}", walls, [1.2, -1.6, 1.6], [0.2, 0, 0.68],
-         [0, 0, 1], 0.36, [1200, 900])
+    walls = [
+        (opened(case, ["patch/blade"]), [0.85, 0.7, 0.45]),
+        (opened(case, ["patch/hub"]), [0.8, 0.86, 0.93]),
+    ]
+    save(
+        f"blade.{name}",
+        walls,
+        [1.2, -1.6, 1.6],
+        [0.2, 0, 0.68],
+        [0, 0, 1],
+        0.36,
+        [1200, 900],
+    )
 
     for radius, part in ((0.995, "gap"), (0.75, "middle")):
-        cut = pv.Slice(Input=opened(case, ["internalMesh"]),
-                       SliceType="Cylinder")
+        cut = pv.Slice(
+            Input=opened(case, ["internalMesh"]), SliceType="Cylinder"
+        )
         cut.SliceType.Center = [0, 0, 0]
         cut.SliceType.Axis = [1, 0, 0]
         cut.SliceType.Radius = radius
         cut.Triangulatetheslice = 0
-        save(f"{part}.{name}", [(cut, [0.93, 0.95, 0.98])], [0.2, 0.05, 5],
-             [0.2, 0.05, 0], [0, 1, 0], 0.33, [1600, 850])
+        save(
+            f"{part}.{name}",
+            [(cut, [0.93, 0.95, 0.98])],
+            [0.2, 0.05, 5],
+            [0.2, 0.05, 0],
+            [0, 1, 0],
+            0.33,
+            [1600, 850],
+        )
 
 
 pictures("before", here)

@@ -6,24 +6,26 @@ the times of the latter, in a table (results/trajectory.csv and .md)."""
 
 import math
 import re
-import sys
 from pathlib import Path
 
+from morphfoam.output.trajectories import compare
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from trajectories import compare  # noqa: E402
 
 number = r"([-+.\deE]+)"
-step = re.compile(rf"^Time = {number}$|^    Centre of mass: \({number} {number} "
-                  rf"{number}\)|^    Orientation: \({number} {number} {number} ",
-                  re.MULTILINE)
+step = re.compile(
+    rf"^Time = {number}$|^    Centre of mass: \({number} {number} "
+    rf"{number}\)|^    Orientation: \({number} {number} {number} ",
+    re.MULTILINE,
+)
 
 
 def trajectory(name):
     """Times, sway [m] and pitch [deg] at the end of each step."""
     times, sway, pitch = [], [], []
-    for found in step.finditer((here / "runs" / name / "log.interFoam")
-                               .read_text()):
+    for found in step.finditer(
+        (here / "runs" / name / "log.interFoam").read_text()
+    ):
         time, _, y, _, xx, _, xz = found.groups()
         if time:
             times.append(float(time))
@@ -36,5 +38,10 @@ def trajectory(name):
     return times, sway, pitch
 
 
-compare(trajectory("rbf"), trajectory("rigidBody"), "rigidBody",
-        ["sway [m]", "pitch [deg]"], here / "results/trajectory")
+compare(
+    trajectory("rbf"),
+    trajectory("rigidBody"),
+    "rigidBody",
+    ["sway [m]", "pitch [deg]"],
+    here / "results/trajectory",
+)

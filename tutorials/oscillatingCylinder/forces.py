@@ -5,22 +5,24 @@
 each run, in a table (results/forces.csv and .md)."""
 
 import math
-import sys
 from pathlib import Path
 
+from morphfoam.output.tables import read_columns, write_table
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import readColumns, writeTable  # noqa: E402
 
 period = 6
 
 
-def lastPeriods(path):
-    columns = readColumns(path)
+def last_periods(path):
+    columns = read_columns(path)
     end = columns["Time"][-1]
     periods = 5 if end > 10 * period else 2
-    first = next(i for i, t in enumerate(columns["Time"])
-                 if t > end - periods * period - 1e-6)
+    first = next(
+        i
+        for i, t in enumerate(columns["Time"])
+        if t > end - periods * period - 1e-6
+    )
     return {name: values[first:] for name, values in columns.items()}
 
 
@@ -46,9 +48,10 @@ def harmonic(time, signal):
 
 
 def row(name):
-    path, = (here / "runs" / name / "postProcessing/forces").glob(
-        "*/coefficient.dat")
-    columns = lastPeriods(path)
+    (path,) = (here / "runs" / name / "postProcessing/forces").glob(
+        "*/coefficient.dat"
+    )
+    columns = last_periods(path)
     time, drag, lift = columns["Time"], columns["Cd"], columns["Cl"]
     amplitude, phase = harmonic(time, lift)
     return {
@@ -62,6 +65,11 @@ def row(name):
     }
 
 
-writeTable([row(name) for name in ("oscillating", "rigid", "fixed")
-            if (here / "runs" / name).exists()],
-           here / "results/forces")
+write_table(
+    [
+        row(name)
+        for name in ("oscillating", "rigid", "fixed")
+        if (here / "runs" / name).exists()
+    ],
+    here / "results/forces",
+)

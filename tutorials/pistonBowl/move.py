@@ -18,9 +18,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+from morphfoam.output.tables import read_columns, write_table
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import readColumns, writeTable  # noqa: E402
 
 motions = ["stroke", "offset", "reentrant"]
 radius, head = 0.04, 0.03
@@ -28,11 +28,13 @@ radius, head = 0.04, 0.03
 
 def points(path):
     body = re.search(r"\n\d+\s*\n\((.*)\n\)", path.read_text(), re.DOTALL)
-    return [[float(x) for x in point.split()]
-            for point in re.findall(r"\(([^()]*)\)", body.group(1))]
+    return [
+        [float(x) for x in point.split()]
+        for point in re.findall(r"\(([^()]*)\)", body.group(1))
+    ]
 
 
-def offSurfaces(before, after, crown):
+def off_surfaces(before, after, crown):
     """Largest distances of points from the surfaces that they were on.
 
     crown: how far the piston goes up"""
@@ -62,19 +64,25 @@ def move(motion):
     shutil.copy(here / "motions" / motion, case / "constant/motion")
     log = case / "log.morphMesh"
     with log.open("w") as file:
-        status = subprocess.run(["morphMesh", "-case", case, "-time", "1"],
-                                stdout=file, stderr=subprocess.STDOUT)
+        status = subprocess.run(
+            ["morphMesh", "-case", case, "-time", "1"],
+            stdout=file,
+            stderr=subprocess.STDOUT,
+        )
     if status.returncode:
         sys.exit(f"Error: morphMesh failed, see {log}")
 
     folder = case / "postProcessing/morphMesh/1"
-    quality = readColumns(folder / "quality.dat")
+    quality = read_columns(folder / "quality.dat")
     steps = re.search(r"subSteps\s+(\d+);", (folder / "motion").read_text())
-    off = offSurfaces(points(case / "constant/polyMesh/points"),
-                      points(case / "1/polyMesh/points"),
-                      0.028 if motion == "stroke" else 0)
+    off = off_surfaces(
+        points(case / "constant/polyMesh/points"),
+        points(case / "1/polyMesh/points"),
+        0.028 if motion == "stroke" else 0,
+    )
     return {
-        "motion": motion, "steps": int(steps.group(1)),
+        "motion": motion,
+        "steps": int(steps.group(1)),
         "max non-orthogonality": quality["maxNonOrthogonality"][-1],
         "max skewness": quality["maxSkewness"][-1],
         "wrong faces": quality["wronglyOrientedFaces"][-1],
@@ -86,7 +94,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-motions", nargs="+", default=motions)
     rows = [move(motion) for motion in parser.parse_args().motions]
-    writeTable(rows, here / "results/motions")
+    write_table(rows, here / "results/motions")
 
 
 if __name__ == "__main__":

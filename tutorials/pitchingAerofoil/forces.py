@@ -6,21 +6,21 @@ morphed and on the one that turns as a whole, in a table (results/forces.csv)
 and a plot."""
 
 import math
-import sys
 from pathlib import Path
 
+from morphfoam.output.tables import read_columns, write_table
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import readColumns, writeTable  # noqa: E402
 
 period = 8
 amplitude = 40
 
 
 def columns(name):
-    path, = (here / "runs" / name / "postProcessing/forces").glob(
-        "*/coefficient.dat")
-    all = readColumns(path)
+    (path,) = (here / "runs" / name / "postProcessing/forces").glob(
+        "*/coefficient.dat"
+    )
+    all = read_columns(path)
     # The start is impulsive: pressure of the first quarter of a period is not
     # of this motion
     first = max(all["Time"][-1] - period, min(2, all["Time"][-1] / 2))
@@ -32,7 +32,8 @@ def row(name, reference, forces):
     lift, drag = forces["Cl"], forces["Cd"]
     scale = max(map(abs, reference["Cl"]))
     difference = math.sqrt(
-        sum((a - b) ** 2 for a, b in zip(lift, reference["Cl"])) / len(lift))
+        sum((a - b) ** 2 for a, b in zip(lift, reference["Cl"])) / len(lift)
+    )
     return {
         "run": name,
         "max Cl": max(lift),
@@ -43,5 +44,7 @@ def row(name, reference, forces):
 
 
 forces = {name: columns(name) for name in ("morphed", "rigid")}
-writeTable([row(name, forces["rigid"], forces[name]) for name in forces],
-           here / "results/forces")
+write_table(
+    [row(name, forces["rigid"], forces[name]) for name in forces],
+    here / "results/forces",
+)

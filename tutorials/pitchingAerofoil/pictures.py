@@ -4,13 +4,12 @@
 """The tutorial's film strip, results/pitching.png: velocity and mesh of a
 period, and the mesh at the tail."""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.film_strip import film_strip
+from morphfoam.pictures.picture import picture
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from filmStrip import filmStrip  # noqa: E402
-from picture import picture  # noqa: E402
 
 case = here / "runs/morphed"
 output = here / "results"
@@ -23,4 +22,4 @@ for part, box, field in (
     for time in (4, 6, 8, 10):
         frames.append(output / f"{part}.{time}.png")
         picture(case, frames[-1], time=time, box=box, width=700, **field)
-filmStrip(frames, output / "pitching.png", columns=4)
+film_strip(frames, output / "pitching.png", columns=4)

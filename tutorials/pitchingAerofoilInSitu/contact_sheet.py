@@ -4,15 +4,16 @@
 """The pictures that the running solver left, side by side:
 results/contactSheet.png"""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.film_strip import film_strip
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from filmStrip import filmStrip  # noqa: E402
 
 pictures = sorted(here.glob("runs/case/postProcessing/catalyst/**/*.png"))
 every = max(1, len(pictures) // 8)
-filmStrip(pictures[every - 1::every], here / "results/contactSheet.png", 4)
-print(f"{len(pictures)} pictures, results/contactSheet.png has "
-      f"{len(pictures[every - 1::every])} of them")
+film_strip(pictures[every - 1 :: every], here / "results/contactSheet.png", 4)
+print(
+    f"{len(pictures)} pictures, results/contactSheet.png has "
+    f"{len(pictures[every - 1::every])} of them"
+)

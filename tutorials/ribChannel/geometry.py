@@ -19,9 +19,9 @@ import re
 import sys
 from pathlib import Path
 
-LENGTH = 1.8                    # pitch of the ribs
-BASE = 0.1                      # thickness of the solid base
-LAYER = 0.05                    # thickness of the boundary layer's mesh
+LENGTH = 1.8  # pitch of the ribs
+BASE = 0.1  # thickness of the solid base
+LAYER = 0.05  # thickness of the boundary layer's mesh
 DEPTH = 0.1
 BASELINE = {"h": 0.15, "e": 0.305, "E": 0.435}
 CELL, FLANK_CELL = 0.0165, 0.0125
@@ -39,62 +39,81 @@ class Rib:
     """The left half of a rib's outline and of the mesh around it."""
 
     def __init__(self, h, e, E):
-        self.h, self.top, self.width = h, 2*e, 2*E
+        self.h, self.top, self.width = h, 2 * e, 2 * E
         self.foot = (-E, 0.0)
         self.corner = (-e, h)
         dx, dy = E - e, h
         self.flank = math.hypot(dx, dy)
-        along = (dx/self.flank, dy/self.flank)
+        along = (dx / self.flank, dy / self.flank)
         normal = (-along[1], along[0])
 
         # Both corners are between a horizontal line and the flank: the outline
         # of the boundary layer has its corners on their bisectors
         bisector = (normal[0], normal[1] + 1)
         length = math.hypot(*bisector)
-        self.bisector = (bisector[0]/length, bisector[1]/length)
-        offset = LAYER/self.bisector[1]
-        self.outerFoot = self.beyond(self.foot, offset)
-        self.outerCorner = self.beyond(self.corner, offset)
+        self.bisector = (bisector[0] / length, bisector[1] / length)
+        offset = LAYER / self.bisector[1]
+        self.outer_foot = self.beyond(self.foot, offset)
+        self.outer_corner = self.beyond(self.corner, offset)
 
         # On the top wall each block has a share as below,
-        floor = LENGTH/2 + self.outerFoot[0]
-        flank = math.dist(self.outerFoot, self.outerCorner)
-        top = -self.outerCorner[0]
-        scale = LENGTH/2/(floor + flank + top)
+        floor = LENGTH / 2 + self.outer_foot[0]
+        flank = math.dist(self.outer_foot, self.outer_corner)
+        top = -self.outer_corner[0]
+        scale = LENGTH / 2 / (floor + flank + top)
         # and more where the flank is so steep that lines fan out from it
-        steep = min(max((-self.bisector[0] - 0.5)/0.2, 0), 1)
-        left = min(self.outerFoot[0], self.outerCorner[0])
-        self.aboveFoot = (
-            (1 - steep)*-scale*(top + flank)
-            + steep*(left - 0.5*(LENGTH/2 + left)), 1.0)
-        self.aboveCorner = (-scale*top, 1.0)
+        steep = min(max((-self.bisector[0] - 0.5) / 0.2, 0), 1)
+        left = min(self.outer_foot[0], self.outer_corner[0])
+        self.above_foot = (
+            (1 - steep) * -scale * (top + flank)
+            + steep * (left - 0.5 * (LENGTH / 2 + left)),
+            1.0,
+        )
+        self.above_corner = (-scale * top, 1.0)
 
-        self.area = h*(e + E)
+        self.area = h * (e + E)
 
     def beyond(self, x, distance):
-        return tuple(a + distance*b for a, b in zip(x, self.bisector))
+        return tuple(a + distance * b for a, b in zip(x, self.bisector))
 
     def upwards(self, start, end, n=12):
         """Points between, of a curve that leaves along the bisector and
         arrives vertically at the top wall."""
-        room = 0.5*(LENGTH/2 + self.outerFoot[0])/max(-self.bisector[0], 1e-9)
+        room = (
+            0.5
+            * (LENGTH / 2 + self.outer_foot[0])
+            / max(-self.bisector[0], 1e-9)
+        )
         first = tuple(
-            a + min(0.3, room)*b for a, b in zip(start, self.bisector))
+            a + min(0.3, room) * b for a, b in zip(start, self.bisector)
+        )
         last = (end[0], end[1] - 0.3)
         curve = []
         for i in range(1, n):
-            t = i/n
-            weights = ((1 - t)**3, 3*t*(1 - t)**2, 3*t**2*(1 - t), t**3)
-            curve.append(tuple(
-                sum(w*p[c] for w, p in zip(weights, (start, first, last, end)))
-                for c in (0, 1)))
+            t = i / n
+            weights = (
+                (1 - t) ** 3,
+                3 * t * (1 - t) ** 2,
+                3 * t**2 * (1 - t),
+                t**3,
+            )
+            curve.append(
+                tuple(
+                    sum(
+                        w * p[c]
+                        for w, p in zip(weights, (start, first, last, end))
+                    )
+                    for c in (0, 1)
+                )
+            )
         return curve
 
     def cells(self):
         def number(length, size):
-            return max(8, round(length/size))
+            return max(8, round(length / size))
+
         return {
-            "nFloor": number(LENGTH/2 - self.width/2, CELL),
+            "nFloor": number(LENGTH / 2 - self.width / 2, CELL),
             "nFlank": number(self.flank, FLANK_CELL),
             "nTop": number(self.top, CELL),
         }
@@ -110,31 +129,44 @@ def polyline(name, points):
     for side, sign in (("Left", 1), ("Right", -1)):
         for face, z in (("Back", 0), ("Front", DEPTH)):
             text = " ".join(
-                f"({sign*x:.12g} {y:.12g} {z:g})" for x, y in points)
+                f"({sign*x:.12g} {y:.12g} {z:g})" for x, y in points
+            )
             lines.append(f"{name}{side}{face} ({text});")
     return lines
 
 
 def moves(name, old, new):
     d = (new[0] - old[0], new[1] - old[1])
-    return [f"{name}Dx {d[0]:.12g};", f"{name}MinusDx {-d[0]:.12g};",
-            f"{name}Dy {d[1]:.12g};"]
+    return [
+        f"{name}Dx {d[0]:.12g};",
+        f"{name}MinusDx {-d[0]:.12g};",
+        f"{name}Dy {d[1]:.12g};",
+    ]
 
 
 def geometry(rib, cells):
     start = Rib(**BASELINE)
     lines = ["// Written by geometry.py from constant/parameters", ""]
-    lines += [f"xMin {-LENGTH/2};", f"xMax {LENGTH/2};", f"yMin {-BASE};",
-              f"layer {LAYER};", f"depth {DEPTH};", f"middle {DEPTH/2};", ""]
+    lines += [
+        f"xMin {-LENGTH/2};",
+        f"xMax {LENGTH/2};",
+        f"yMin {-BASE};",
+        f"layer {LAYER};",
+        f"depth {DEPTH};",
+        f"middle {DEPTH/2};",
+        "",
+    ]
     corners = ("foot", "corner", "outerFoot", "outerCorner")
     for name in corners + ("aboveFoot", "aboveCorner"):
         point = getattr(rib, name)
         lines += xy(name, point)
         lines.append(f"{name}MinusX {-point[0]:.12g};")
     lines += [""] + polyline(
-        "aboveFoot", rib.upwards(rib.outerFoot, rib.aboveFoot))
+        "aboveFoot", rib.upwards(rib.outer_foot, rib.above_foot)
+    )
     lines += polyline(
-        "aboveCorner", rib.upwards(rib.outerCorner, rib.aboveCorner))
+        "aboveCorner", rib.upwards(rib.outer_corner, rib.above_corner)
+    )
     lines += [""] + [f"{name} {n};" for name, n in cells.items()]
 
     lines += ["", "// The baseline, and from there"]

@@ -11,31 +11,42 @@ import re
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from foamOutput import writeTable  # noqa: E402
+from morphfoam.output.tables import write_table
+
 
 REYNOLDS, PRANDTL = 20000, 0.71
-CONDUCTIVITY = 1000*1e-4/PRANDTL
-NUSSELT = 0.023*REYNOLDS**0.8*PRANDTL**0.4
-FRICTION = 0.316*REYNOLDS**-0.25
+CONDUCTIVITY = 1000 * 1e-4 / PRANDTL
+NUSSELT = 0.023 * REYNOLDS**0.8 * PRANDTL**0.4
+FRICTION = 0.316 * REYNOLDS**-0.25
 
 
 def last(case, region, name):
-    path, = Path(case).glob(
-        f"postProcessing/{region}/{name}/*/surfaceFieldValue.dat")
+    (path,) = Path(case).glob(
+        f"postProcessing/{region}/{name}/*/surfaceFieldValue.dat"
+    )
     return float(path.read_text().split()[-1])
 
 
 def row(case):
-    bulk = 0.5*(last(case, "fluid", "bulkTemperature")
-                + last(case, "fluid", "outletTemperature"))
+    bulk = 0.5 * (
+        last(case, "fluid", "bulkTemperature")
+        + last(case, "fluid", "outletTemperature")
+    )
     wall = last(case, "solid", "wallTemperature")
-    log = (Path(case)/"log.chtMultiRegionSimpleFoam").read_text()
+    log = (Path(case) / "log.chtMultiRegionSimpleFoam").read_text()
     gradient = float(re.findall(r"pressure gradient = (\S+)", log)[-1])
-    nusselt, friction = 100*2/(CONDUCTIVITY*(wall - bulk)), gradient*2/0.5
-    return {"case": Path(case).name, "Nu": nusselt, "Nu/Nu0": nusselt/NUSSELT,
-            "Cf": friction, "Cf/Cf0": friction/FRICTION}
+    nusselt, friction = (
+        100 * 2 / (CONDUCTIVITY * (wall - bulk)),
+        gradient * 2 / 0.5,
+    )
+    return {
+        "case": Path(case).name,
+        "Nu": nusselt,
+        "Nu/Nu0": nusselt / NUSSELT,
+        "Cf": friction,
+        "Cf/Cf0": friction / FRICTION,
+    }
 
 
 if __name__ == "__main__":
-    writeTable([row(case) for case in sys.argv[1:]], "results/smooth")
+    write_table([row(case) for case in sys.argv[1:]], "results/smooth")

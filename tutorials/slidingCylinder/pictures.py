@@ -5,16 +5,19 @@
 solver as far as it can."""
 
 import csv
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.picture import picture
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from picture import picture  # noqa: E402
 
 with (here / "results/largest.csv").open() as file:
     for row in csv.DictReader(file):
         run = f"{row['motion']}.{row['walls']}"
-        picture(here / "runs" / run, here / "results" / f"{run}.png",
-                time=float(row["largest valid"]), box=(-6.1, 6.1, -1.6, 1.6),
-                width=1600)
+        picture(
+            here / "runs" / run,
+            here / "results" / f"{run}.png",
+            time=float(row["largest valid"]),
+            box=(-6.1, 6.1, -1.6, 1.6),
+            width=1600,
+        )

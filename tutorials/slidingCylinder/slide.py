@@ -10,8 +10,9 @@ is enclosed between one that is valid and one that is not, to within 0.02.
 Beside it, from one motion by 5.4: the fraction of it that morphMesh says is
 attainable. A motion solver whose field is proportional to the displacement has
 to give the same. rbfSubSteps is one step of morphMesh as well, within which
-rbfMotionSolver takes as many as it needs. Steps of 0.1 (-smallSteps): moveDynamicMesh, until its mesh
-check finds a wrongly oriented face or a cell without volume.
+rbfMotionSolver takes as many as it needs. Steps of 0.1 (-smallSteps):
+moveDynamicMesh, until its mesh check finds a wrongly oriented face or a cell
+without volume.
 
 Writes results/largest.csv and .md and prints the table. The meshes at the
 largest valid displacement are left in runs/.
@@ -24,16 +25,22 @@ import subprocess
 import sys
 from pathlib import Path
 
-here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from foamOutput import readColumns, writeTable  # noqa: E402
+from morphfoam.output.tables import read_columns, write_table
 
-motions = ["rbf", "rbfSubSteps", "laplacianUniform", "laplacianQuadratic", "SBRStress"]
+here = Path(__file__).resolve().parent
+
+motions = [
+    "rbf",
+    "rbfSubSteps",
+    "laplacianUniform",
+    "laplacianQuadratic",
+    "SBRStress",
+]
 resolution, largest = 0.02, 5.4
 invalid = re.compile(r"incorrectly oriented|negative cell volume")
 
 
-def makeCase(motion, walls):
+def make_case(motion, walls):
     case = here / "runs" / f"{motion}.{walls}"
     shutil.rmtree(case, ignore_errors=True)
     for folder in ("constant", "system"):
@@ -57,8 +64,11 @@ def move(case, displacement):
     shutil.copytree(case / "0", case / time)
     log = case / f"log.morphMesh.{time}"
     with log.open("w") as file:
-        status = subprocess.run(["morphMesh", "-case", case, "-time", time],
-                                stdout=file, stderr=subprocess.STDOUT)
+        status = subprocess.run(
+            ["morphMesh", "-case", case, "-time", time],
+            stdout=file,
+            stderr=subprocess.STDOUT,
+        )
     refused = "\nFailed: the moved mesh would be invalid\n" in log.read_text()
     if (status.returncode != 0) != refused:
         sys.exit(f"Error: morphMesh failed, see {log}")
@@ -69,11 +79,12 @@ def attainable(case, displacement):
     """Of the motion by this displacement, as morphMesh says"""
     record = case / f"postProcessing/morphMesh/{name(displacement)}/motion"
     return displacement * float(
-        re.search(r"attainable\s+(\S+);", record.read_text()).group(1))
+        re.search(r"attainable\s+(\S+);", record.read_text()).group(1)
+    )
 
 
-def inOneStep(motion, walls):
-    case = makeCase(motion, walls)
+def in_one_step(motion, walls):
+    case = make_case(motion, walls)
     broken = round(largest / resolution)
     valid = broken if move(case, largest) else 0
     said = attainable(case, largest)
@@ -85,28 +96,36 @@ def inOneStep(motion, walls):
             broken = middle
     displacement = valid * resolution
     move(case, displacement)
-    quality = readColumns(
-        case / f"postProcessing/morphMesh/{name(displacement)}/quality.dat")
+    quality = read_columns(
+        case / f"postProcessing/morphMesh/{name(displacement)}/quality.dat"
+    )
     return {
-        "motion": motion, "walls": walls,
-        "largest valid": displacement, "attainable": said,
+        "motion": motion,
+        "walls": walls,
+        "largest valid": displacement,
+        "attainable": said,
         "max non-orthogonality": quality["maxNonOrthogonality"][-1],
         "max skewness": quality["maxSkewness"][-1],
         "off the walls": distance(case, name(displacement)),
     }
 
 
-def inSmallSteps(motion, walls, step=0.1):
-    case = makeCase(motion, walls)
+def in_small_steps(motion, walls, step=0.1):
+    case = make_case(motion, walls)
     control = case / "system/controlDict"
-    control.write_text(control.read_text().replace(
-        "deltaT              1;", f"deltaT              {step};").replace(
-        "writeInterval       1;", "writeInterval       1000;"))
+    control.write_text(
+        control.read_text()
+        .replace("deltaT              1;", f"deltaT              {step};")
+        .replace("writeInterval       1;", "writeInterval       1000;")
+    )
     time, valid = 0.0, 0.0
     with (case / "log.moveDynamicMesh").open("w") as log:
         process = subprocess.Popen(
-            ["moveDynamicMesh", "-case", case], text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            ["moveDynamicMesh", "-case", case],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         for line in process.stdout:
             log.write(line)
             if line.startswith("Time = "):
@@ -121,8 +140,10 @@ def inSmallSteps(motion, walls, step=0.1):
 
 def points(path):
     body = re.search(r"\n\d+\s*\n\((.*)\n\)", path.read_text(), re.DOTALL)
-    return [[float(x) for x in point.split()]
-            for point in re.findall(r"\(([^()]*)\)", body.group(1))]
+    return [
+        [float(x) for x in point.split()]
+        for point in re.findall(r"\(([^()]*)\)", body.group(1))
+    ]
 
 
 def distance(case, time):
@@ -132,26 +153,34 @@ def distance(case, time):
     after = points(case / time / "polyMesh/points")
     return max(
         abs(q[i] - p[i]) / 12
-        for p, q in zip(before, after) for i, plane in ((1, 1.5), (2, 1))
-        if abs(abs(p[i]) - plane) < 1e-9)
+        for p, q in zip(before, after)
+        for i, plane in ((1, 1.5), (2, 1))
+        if abs(abs(p[i]) - plane) < 1e-9
+    )
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-motions", nargs="+", default=motions)
     parser.add_argument("-walls", nargs="+", default=["sliding", "fixed"])
-    parser.add_argument("-smallSteps", action="store_true")
+    parser.add_argument("-smallSteps", dest="small_steps", action="store_true")
     options = parser.parse_args()
 
     rows = []
-    runs = [(motion, walls) for walls in options.walls
-            for motion in options.motions
-            if (motion, walls) != ("rbfSubSteps", "fixed")]  # minutes
+    runs = [
+        (motion, walls)
+        for walls in options.walls
+        for motion in options.motions
+        if (motion, walls) != ("rbfSubSteps", "fixed")
+    ]  # minutes
     for motion, walls in runs:
-        small = ({"steps of 0.1": inSmallSteps(motion, walls)}
-                 if options.smallSteps else {})
-        rows.append({**inOneStep(motion, walls), **small})
-    writeTable(rows, here / "results/largest")
+        small = (
+            {"steps of 0.1": in_small_steps(motion, walls)}
+            if options.small_steps
+            else {}
+        )
+        rows.append({**in_one_step(motion, walls), **small})
+    write_table(rows, here / "results/largest")
 
 
 if __name__ == "__main__":

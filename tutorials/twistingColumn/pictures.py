@@ -3,18 +3,24 @@
 
 """The tutorial's film strip, results/twist.png: the column from the side."""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.film_strip import film_strip
+from morphfoam.pictures.picture import picture
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from filmStrip import filmStrip  # noqa: E402
-from picture import picture  # noqa: E402
 
 output = here / "results"
 frames = []
 for time in (1, 3, 5, 8, 10):
     frames.append(output / f"column.{time}.png")
-    picture(here / "runs/rbf", frames[-1], time=time, box=(-1.2, 1.2, -0.5, 8.5),
-            towards=(0, 1, 0), up=(0, 0, 1), width=300)
-filmStrip(frames, output / "twist.png", columns=5)
+    picture(
+        here / "runs/rbf",
+        frames[-1],
+        time=time,
+        box=(-1.2, 1.2, -0.5, 8.5),
+        towards=(0, 1, 0),
+        up=(0, 0, 1),
+        width=300,
+    )
+film_strip(frames, output / "twist.png", columns=5)

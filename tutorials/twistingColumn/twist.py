@@ -25,33 +25,48 @@ def angle(time):
 def twisted(point, time):
     x, y, z = point
     a = angle(time) * z / HEIGHT
-    return (x * math.cos(a) - y * math.sin(a),
-            x * math.sin(a) + y * math.cos(a), z)
+    return (
+        x * math.cos(a) - y * math.sin(a),
+        x * math.sin(a) + y * math.cos(a),
+        z,
+    )
 
 
-def readPoints(file):
-    return [tuple(map(float, row.split())) for row in re.findall(
-        r"^\((\S+ \S+ \S+)\)$", Path(file).read_text(), re.MULTILINE)]
+def read_points(file):
+    return [
+        tuple(map(float, row.split()))
+        for row in re.findall(
+            r"^\((\S+ \S+ \S+)\)$", Path(file).read_text(), re.MULTILINE
+        )
+    ]
 
 
-def listOf(vectors):
-    return "(\n" + "".join(
-        "({!r} {!r} {!r})\n".format(*v) for v in vectors) + ")\n"
+def list_of(vectors):
+    return (
+        "(\n"
+        + "".join("({!r} {!r} {!r})\n".format(*v) for v in vectors)
+        + ")\n"
+    )
 
 
 def main(case):
-    points = [p for p in readPoints(case / "constant/polyMesh/points")
-              if abs(p[0]) > 0.4999 or abs(p[1]) > 0.4999
-              or p[2] in (0, HEIGHT)]
+    points = [
+        p
+        for p in read_points(case / "constant/polyMesh/points")
+        if abs(p[0]) > 0.4999 or abs(p[1]) > 0.4999 or p[2] in (0, HEIGHT)
+    ]
     for patch in PATCHES:
         folder = case / "constant/boundaryData" / patch
         folder.mkdir(parents=True)
-        (folder / "points").write_text(listOf(points))
+        (folder / "points").write_text(list_of(points))
         for time in range(STEPS + 1):
             (folder / str(time)).mkdir()
-            (folder / str(time) / "pointDisplacement").write_text(listOf(
-                tuple(b - a for a, b in zip(p, twisted(p, time)))
-                for p in points))
+            (folder / str(time) / "pointDisplacement").write_text(
+                list_of(
+                    tuple(b - a for a, b in zip(p, twisted(p, time)))
+                    for p in points
+                )
+            )
 
 
 if __name__ == "__main__":

@@ -4,13 +4,12 @@
 """The tutorial's pictures, in results/: the water plane, before and after, and
 the hull in its domain."""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.picture import picture
+from morphfoam.pictures.scene import scene
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from picture import picture  # noqa: E402
-from scene import scene  # noqa: E402
 
 before = here / "runs/before"
 (before / "constant").mkdir(parents=True, exist_ok=True)
@@ -18,11 +17,23 @@ link = before / "constant/polyMesh"
 if not link.exists():
     link.symlink_to(here / "constant/polyMesh")
 
-for name, case, time in (("before", before, None),
-                         ("images.auto", here / "runs/images.auto", 1.0),
-                         ("images.no", here / "runs/images.no", 1.0)):
-    picture(case, here / f"results/water.{name}.png", time=time,
-            box=(-0.75, 0.75, 0, 0.35), width=1600)
-    scene(here / f"results/hull.{name}.png", cases=[(case, time)],
-          patches=["body", "middle"], direction=(-1, 2, -1), lines=True,
-          box=(-0.7, 0.7, 0, 0.2, -0.2, 0))
+for name, case, time in (
+    ("before", before, None),
+    ("images.auto", here / "runs/images.auto", 1.0),
+    ("images.no", here / "runs/images.no", 1.0),
+):
+    picture(
+        case,
+        here / f"results/water.{name}.png",
+        time=time,
+        box=(-0.75, 0.75, 0, 0.35),
+        width=1600,
+    )
+    scene(
+        here / f"results/hull.{name}.png",
+        cases=[(case, time)],
+        patches=["body", "middle"],
+        direction=(-1, 2, -1),
+        lines=True,
+        box=(-0.7, 0.7, 0, 0.2, -0.2, 0),
+    )

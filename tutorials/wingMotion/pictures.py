@@ -4,19 +4,19 @@
 """The tutorial's picture, results/wing.png: speed and mesh at the wing at the
 end."""
 
-import sys
 from pathlib import Path
 
+from morphfoam.pictures.film_strip import film_strip
+from morphfoam.pictures.picture import picture
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from filmStrip import filmStrip  # noqa: E402
-from picture import picture  # noqa: E402
 
 output = here / "results"
 frames = [output / "speed.png", output / "mesh.png", output / "nose.png"]
 whole, nose = (-0.4, 1.4, -0.7, 0.7), (-0.09, 0.09, -0.02, 0.12)
-picture(here / "runs/rbf", frames[0], box=whole, field="U", lines=False,
-        width=700)
+picture(
+    here / "runs/rbf", frames[0], box=whole, field="U", lines=False, width=700
+)
 picture(here / "runs/rbf", frames[1], box=whole, width=700)
 picture(here / "runs/rbf", frames[2], box=nose, width=700)
-filmStrip(frames, output / "wing.png", columns=3)
+film_strip(frames, output / "wing.png", columns=3)

@@ -6,17 +6,18 @@ OpenFOAM's, at the times of the latter (results/trajectory.csv and .md)."""
 
 import math
 import re
-import sys
 from pathlib import Path
 
+from morphfoam.output.trajectories import compare
+
 here = Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parents[1] / "scripts"))
-from trajectories import compare  # noqa: E402
 
 number = r"([-+.\deE]+)"
 step = re.compile(
     rf"^Time = {number}$|^    Centre of rotation: \({number} {number} {number}\)"
-    rf"|^    Orientation: \({number} {number} ", re.MULTILINE)
+    rf"|^    Orientation: \({number} {number} ",
+    re.MULTILINE,
+)
 
 
 def trajectory(name):
@@ -37,5 +38,10 @@ def trajectory(name):
     return times, heave, [angle - pitch[0] for angle in pitch]
 
 
-compare(trajectory("rbf"), trajectory("sixDoF"), "sixDoF",
-        ["heave [m]", "pitch [deg]"], here / "results/trajectory")
+compare(
+    trajectory("rbf"),
+    trajectory("sixDoF"),
+    "sixDoF",
+    ["heave [m]", "pitch [deg]"],
+    here / "results/trajectory",
+)

@@ -11,7 +11,7 @@ import re
 from pathlib import Path
 
 
-def readColumns(path):
+def read_columns(path):
     """The columns of a table as function objects and morphMesh write it: the
     last comment line before the first row names them. {name: [values]}, each
     value a float, or a word where it is no number."""
@@ -20,7 +20,7 @@ def readColumns(path):
         if line.startswith("#"):
             names = line[1:].split() if not rows else names
         elif line.strip():
-            rows.append([numberOrWord(word) for word in line.split()])
+            rows.append([number_or_word(word) for word in line.split()])
     if not rows:
         raise ValueError(f"{path} has no row of values")
     if len(names) != len(rows[0]):
@@ -30,7 +30,7 @@ def readColumns(path):
     return {name: list(column) for name, column in zip(names, zip(*rows))}
 
 
-def numberOrWord(text):
+def number_or_word(text):
     try:
         return float(text)
     except ValueError:
@@ -51,7 +51,9 @@ def format(value):
 
 def markdown(rows):
     """A Markdown table of dictionaries that have the same keys."""
-    cells = [list(rows[0])] + [[format(v) for v in row.values()] for row in rows]
+    cells = [list(rows[0])] + [
+        [format(v) for v in row.values()] for row in rows
+    ]
     widths = [max(len(row[i]) for row in cells) for i in range(len(cells[0]))]
     lines = [
         "| " + " | ".join(c.ljust(w) for c, w in zip(row, widths)) + " |"
@@ -61,7 +63,7 @@ def markdown(rows):
     return "\n".join([lines[0], rule] + lines[1:]) + "\n"
 
 
-def writeTable(rows, stem):
+def write_table(rows, stem):
     """Writes the rows to stem.csv and stem.md and prints them."""
     stem = Path(stem)
     stem.parent.mkdir(parents=True, exist_ok=True)

@@ -8,7 +8,7 @@
 A motion is the times and, for each of the names, the values at them.
 """
 
-from foamOutput import writeTable
+from morphfoam.output.tables import write_table
 
 
 def at(time, times, values):
@@ -30,11 +30,15 @@ def compare(ours, reference, name, motions, output):
         a = [at(t, ours[0], ours[i]) for t in times]
         b = [at(t, reference[0], reference[i]) for t in times]
         largest = max(map(abs, b))
-        rows.append({
-            "motion": motion,
-            "largest, rbf": max(map(abs, a)),
-            f"largest, {name}": largest,
-            "largest difference, of that": max(
-                abs(x - y) for x, y in zip(a, b)) / largest,
-        })
-    writeTable(rows, output)
+        rows.append(
+            {
+                "motion": motion,
+                "largest, rbf": max(map(abs, a)),
+                f"largest, {name}": largest,
+                "largest difference, of that": max(
+                    abs(x - y) for x, y in zip(a, b)
+                )
+                / largest,
+            }
+        )
+    write_table(rows, output)

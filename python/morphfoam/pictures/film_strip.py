@@ -13,16 +13,17 @@ import matplotlib.image
 import numpy as np
 
 
-def filmStrip(pictures, output, columns, gap=8):
+def film_strip(pictures, output, columns, gap=8):
     frames = [matplotlib.image.imread(str(path))[..., :3] for path in pictures]
     height, width = frames[0].shape[:2]
     if any(frame.shape[:2] != (height, width) for frame in frames):
         raise ValueError("the pictures differ in size")
     rows = -(-len(frames) // columns)
-    strip = np.ones((rows * (height + gap) - gap,
-                     columns * (width + gap) - gap, 3))
+    strip = np.ones(
+        (rows * (height + gap) - gap, columns * (width + gap) - gap, 3)
+    )
     for i, frame in enumerate(frames):
         y = i // columns * (height + gap)
         x = i % columns * (width + gap)
-        strip[y:y + height, x:x + width] = frame
+        strip[y : y + height, x : x + width] = frame
     matplotlib.image.imsave(str(output), strip)

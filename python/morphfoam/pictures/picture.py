@@ -3,9 +3,9 @@
 
 """Pictures of a case's mesh and fields, made with ParaView without a display.
 
-    withDisplay $(python3With paraview.simple) scripts/picture.py CASE OUTPUT.png
-        [-time T] [-box X0 X1 Y0 Y1] [-field NAME] [-range LOW HIGH] [-noLines]
-        [-width PIXELS] [-regions NAME...]
+    withDisplay $(python3With paraview.simple) -m morphfoam.pictures.picture
+        CASE OUTPUT.png [-time T] [-box X0 X1 Y0 Y1] [-field NAME]
+        [-range LOW HIGH] [-noLines] [-width PIXELS] [-regions NAME...]
 
 or picture(...) from a script run so; not by pvbatch, which takes options for
 its own. The view is along -z on the
@@ -21,7 +21,7 @@ from paraview import simple as pv
 pv._DisableFirstRenderCameraReset()
 
 
-def openCase(case, time=None, regions=()):
+def open_case(case, time=None, regions=()):
     """The internal mesh and its cell fields at that time (default: last), or
     the meshes of regions.
 
@@ -41,7 +41,9 @@ def openCase(case, time=None, regions=()):
     times = list(reader.TimestepValues)
     if time is None:
         time = times[-1] if times else 0.0
-    elif times and min(abs(t - time) for t in times) > 1e-6 * max(1, abs(time)):
+    elif times and min(abs(t - time) for t in times) > 1e-6 * max(
+        1, abs(time)
+    ):
         raise ValueError(f"{case} has no time {time:g}, but {times}")
     pv.GetAnimationScene().AnimationTime = time
     pv.UpdatePipeline(time=time, proxy=reader)
@@ -74,13 +76,13 @@ def picture(
     plane   (origin, normal): a section through the mesh instead of its surface
     """
     view = pv.CreateView("RenderView")
-    mesh = openCase(case, time, regions)
+    mesh = open_case(case, time, regions)
     if plane is not None:
         mesh = section(mesh, *plane)
     if box is None:
         box = mesh.GetDataInformation().GetBounds()[:4]
-    xMin, xMax, yMin, yMax = box
-    height = round(width * (yMax - yMin) / (xMax - xMin))
+    x_min, x_max, y_min, y_max = box
+    height = round(width * (y_max - y_min) / (x_max - x_min))
 
     view.ViewSize = [width, height]
     view.UseColorPaletteForBackground = 0
@@ -96,19 +98,30 @@ def picture(
         display.SetScalarColoring(None, 0)
         display.AmbientColor = display.DiffuseColor = [0.93, 0.95, 0.98]
     else:
-        colour(display, view, mesh, field, range or visibleRange(
-            mesh, field, box), component)
+        colour(
+            display,
+            view,
+            mesh,
+            field,
+            range or visible_range(mesh, field, box),
+            component,
+        )
 
     view.CameraParallelProjection = 1
-    across = [towards[i - 2] * up[i - 1] - towards[i - 1] * up[i - 2]
-              for i in (0, 1, 2)]
-    centre = [a * (xMin + xMax) / 2 + b * (yMin + yMax) / 2
-              for a, b in zip(across, up)]
+    across = [
+        towards[i - 2] * up[i - 1] - towards[i - 1] * up[i - 2]
+        for i in (0, 1, 2)
+    ]
+    centre = [
+        a * (x_min + x_max) / 2 + b * (y_min + y_max) / 2
+        for a, b in zip(across, up)
+    ]
     view.CameraFocalPoint = centre
-    view.CameraPosition = [c - 10 * (xMax - xMin) * t
-                           for c, t in zip(centre, towards)]
+    view.CameraPosition = [
+        c - 10 * (x_max - x_min) * t for c, t in zip(centre, towards)
+    ]
     view.CameraViewUp = list(up)
-    view.CameraParallelScale = (yMax - yMin) / 2
+    view.CameraParallelScale = (y_max - y_min) / 2
 
     Path(output).resolve().parent.mkdir(parents=True, exist_ok=True)
     pv.Render(view)
@@ -124,12 +137,12 @@ def section(mesh, origin, normal):
     return cut
 
 
-def visibleRange(mesh, field, box):
+def visible_range(mesh, field, box):
     """Of the field in the cells the picture shows"""
-    xMin, xMax, yMin, yMax = box
+    x_min, x_max, y_min, y_max = box
     cut = pv.Clip(Input=mesh, ClipType="Box")
-    cut.ClipType.Position = [xMin, yMin, -1e9]
-    cut.ClipType.Length = [xMax - xMin, yMax - yMin, 2e9]
+    cut.ClipType.Position = [x_min, y_min, -1e9]
+    cut.ClipType.Length = [x_max - x_min, y_max - y_min, 2e9]
     cut.UpdatePipeline()
     array = cut.GetCellDataInformation().GetArray(field)
     if array is None:
@@ -140,7 +153,9 @@ def visibleRange(mesh, field, box):
 
 
 def colour(display, view, mesh, field, limits, component=None):
-    pv.ColorBy(display, ("POINTS", field) + ((component,) if component else ()))
+    pv.ColorBy(
+        display, ("POINTS", field) + ((component,) if component else ())
+    )
     table = pv.GetColorTransferFunction(field)
     table.ApplyPreset("Cool to Warm (Extended)", True)
     table.RescaleTransferFunction(*limits)

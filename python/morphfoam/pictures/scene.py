@@ -3,8 +3,8 @@
 
 """Three-dimensional pictures: surfaces, patches, cuts through a mesh, lattices.
 
-    withDisplay $(python3With paraview.simple) scripts/scene.py OUTPUT.png
-        [-surface FILE ...] [-lattice FILE ...] [-case CASE [-time T]
+    withDisplay $(python3With paraview.simple) -m morphfoam.pictures.scene
+        OUTPUT.png [-surface FILE ...] [-lattice FILE ...] [-case CASE [-time T]
         [-patches NAME ...] [-cut x|y|z [-at X]]] [-direction X Y Z] [-zoom F]
 
 or scene(...) from a script run so.
@@ -15,28 +15,42 @@ from pathlib import Path
 
 from paraview import simple as pv
 
-from picture import openCase
+from morphfoam.pictures.picture import open_case
 
 pv._DisableFirstRenderCameraReset()
 
 NORMALS = {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}
 
 
-def openPatches(case, patches, time=None):
+def open_patches(case, patches, time=None):
     """Patches of a case as surfaces"""
     case = Path(case).resolve()
     marker = case / (case.name + ".foam")
     marker.touch()
     reader = pv.OpenFOAMReader(
-        FileName=str(marker),
-        MeshRegions=[f"patch/{name}" for name in patches])
+        FileName=str(marker), MeshRegions=[f"patch/{name}" for name in patches]
+    )
     pv.UpdatePipeline(time=0.0 if time is None else time, proxy=reader)
     return reader
 
 
-def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
-          at=None, direction=(-2, -3, 1.5), zoom=1.0, field=None, range=None,
-          lines=False, width=1200, height=800, box=None):
+def scene(
+    output,
+    surfaces=(),
+    lattices=(),
+    cases=(),
+    patches=(),
+    cut=None,
+    at=None,
+    direction=(-2, -3, 1.5),
+    zoom=1.0,
+    field=None,
+    range=None,
+    lines=False,
+    width=1200,
+    height=800,
+    box=None,
+):
     """Writes one picture.
 
     surfaces, lattices  files that ParaView reads (stl, obj, vtk, vtp)
@@ -61,8 +75,7 @@ def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
 
     def show(source, colour, edges=False, opacity=1.0, line=1):
         display = pv.Show(source, view)
-        display.Representation = (
-            "Surface With Edges" if edges else "Surface")
+        display.Representation = "Surface With Edges" if edges else "Surface"
         display.SetScalarColoring(None, 0)
         display.AmbientColor = display.DiffuseColor = colour
         display.EdgeColor = [0.1, 0.2, 0.4]
@@ -81,7 +94,7 @@ def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
             extent = lattice.GetDataInformation().GetBounds()
             reach = max(extent[i + 1] - extent[i] for i in (0, 2, 4))
             lattice = pv.Transform(Input=lattice)
-            lattice.Transform.Translate = [reach*n for n in towards]
+            lattice.Transform.Translate = [reach * n for n in towards]
         show(lattice, [0.8, 0.25, 0.1], line=1)
         knots = pv.Glyph(Input=lattice, GlyphType="Sphere")
         knots.ScaleArray = ["POINTS", "No scale array"]
@@ -89,20 +102,24 @@ def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
         knots.GlyphMode = "All Points"
         bounds = lattice.GetDataInformation().GetBounds()
         knots.ScaleFactor = 0.012 * max(
-            bounds[i + 1] - bounds[i] for i in (0, 2, 4))
+            bounds[i + 1] - bounds[i] for i in (0, 2, 4)
+        )
         show(knots, [0.8, 0.25, 0.1])
     for case, time in cases:
         if patches:
-            show(openPatches(case, patches, time), [0.75, 0.78, 0.85], lines)
+            show(open_patches(case, patches, time), [0.75, 0.78, 0.85], lines)
         if cut:
-            mesh = openCase(case, time)
+            mesh = open_case(case, time)
             bounds = mesh.GetDataInformation().GetBounds()
             middle = [(bounds[i] + bounds[i + 1]) / 2 for i in (0, 2, 4)]
             if at is not None:
                 middle["xyz".index(cut)] = at
             # Whole cells, as they are
-            cells = pv.Slice(Input=mesh, SliceType="Plane") \
-                if field else pv.ExtractCellsByRegion(Input=mesh)
+            cells = (
+                pv.Slice(Input=mesh, SliceType="Plane")
+                if field
+                else pv.ExtractCellsByRegion(Input=mesh)
+            )
             if field:
                 cells.SliceType.Origin = middle
                 cells.SliceType.Normal = NORMALS[cut]
@@ -114,7 +131,7 @@ def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
                 cells.Extractintersected = 1
             display = show(cells, [0.93, 0.95, 0.98], field is None)
             if field:
-                colourBy(display, view, field, range)
+                colour_by(display, view, field, range)
 
     look(view, shown, towards, zoom, box)
     Path(output).resolve().parent.mkdir(parents=True, exist_ok=True)
@@ -125,7 +142,7 @@ def scene(output, surfaces=(), lattices=(), cases=(), patches=(), cut=None,
     pv.Delete(view)
 
 
-def colourBy(display, view, field, limits):
+def colour_by(display, view, field, limits):
     pv.ColorBy(display, ("CELLS", field))
     table = pv.GetColorTransferFunction(field)
     table.ApplyPreset("Cool to Warm (Extended)", True)
@@ -141,17 +158,21 @@ def look(view, shown, direction, zoom, box):
         for source in shown:
             source.UpdatePipeline()
             all_bounds.append(source.GetDataInformation().GetBounds())
-        box = [f(b[i] for b in all_bounds)
-               for i in (0, 1, 2, 3, 4, 5) for f in [min if i % 2 == 0 else max]]
+        box = [
+            f(b[i] for b in all_bounds)
+            for i in (0, 1, 2, 3, 4, 5)
+            for f in [min if i % 2 == 0 else max]
+        ]
     centre = [(box[i] + box[i + 1]) / 2 for i in (0, 2, 4)]
-    size = sum((box[i + 1] - box[i])**2 for i in (0, 2, 4))**0.5
-    length = sum(d*d for d in direction)**0.5
+    size = sum((box[i + 1] - box[i]) ** 2 for i in (0, 2, 4)) ** 0.5
+    length = sum(d * d for d in direction) ** 0.5
     view.CameraFocalPoint = centre
     view.CameraPosition = [
-        c + 3*size*d/length for c, d in zip(centre, direction)]
-    vertical = abs(direction[2]) > 0.9*length
+        c + 3 * size * d / length for c, d in zip(centre, direction)
+    ]
+    vertical = abs(direction[2]) > 0.9 * length
     view.CameraViewUp = [0, 1, 0] if vertical else [0, 0, 1]
-    view.CameraParallelScale = 0.45*size/zoom
+    view.CameraParallelScale = 0.45 * size / zoom
 
 
 def main():

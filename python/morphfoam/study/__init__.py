@@ -8,11 +8,11 @@ study file. One module per concern:
 
     expressions   what constraints and derived quantities may say
     section       mappings of a file, with the keys they may have
-    studyFile     reads the study file and says what is wrong with it
+    study_file    reads the study file and says what is wrong with it
     sampling      factorial, Latin hypercube, Sobol, under constraints
     designs       the table of designs, which only grows
-    caseFolder    a design's case, from the template or the baseline
-    foamEntry     a number in a dictionary file
+    case_folder   a design's case, from the template or the baseline
+    foam_entry    a number in a dictionary file
     process       a command with a log, a timeout, and an end
     responses     numbers from what a run leaves behind
     outcomes      what became of a design, written last and at once

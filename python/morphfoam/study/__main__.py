@@ -22,8 +22,10 @@ VERBS = {
 
 def parser():
     top = argparse.ArgumentParser(
-        prog="morphStudy", description="Sweeps of shapes from one baseline."
-        " Every key of the study file: scripts/morphStudy/README.md")
+        prog="morphStudy",
+        description="Sweeps of shapes from one baseline."
+        " Every key of the study file: python/morphfoam/study/README.md",
+    )
     verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB")
     for verb, meaning in VERBS.items():
         one = verbs.add_parser(verb, help=meaning, description=meaning)
@@ -33,43 +35,68 @@ def parser():
         if verb in ("run", "optimise", "status"):
             one.add_argument("-cores", type=int, help="default: all")
         if verb in ("run", "optimise"):
-            one.add_argument("-profile", help="a profile of Snakemake, for"
-                             " Slurm and the like")
+            one.add_argument(
+                "-profile",
+                help="a profile of Snakemake, for" " Slurm and the like",
+            )
         if verb == "run":
-            one.add_argument("-only", type=int, nargs="+", default=[],
-                             metavar="ID", help="these designs")
-            one.add_argument("-redo", nargs="+", default=[], metavar="ID",
-                             help="make these again, or those that 'failed'")
+            one.add_argument(
+                "-only",
+                type=int,
+                nargs="+",
+                default=[],
+                metavar="ID",
+                help="these designs",
+            )
+            one.add_argument(
+                "-redo",
+                nargs="+",
+                default=[],
+                metavar="ID",
+                help="make these again, or those that 'failed'",
+            )
         if verb == "optimise":
-            one.add_argument("-noRuns", action="store_true",
-                             help="do not verify the representatives by runs")
+            one.add_argument(
+                "-noRuns",
+                dest="no_runs",
+                action="store_true",
+                help="do not verify the representatives by runs",
+            )
     return top
 
 
-def redoOf(words):
+def redo_of(words):
     try:
         return [w if w == "failed" else int(w) for w in words]
     except ValueError:
-        raise StudyError(f"-redo {' '.join(words)}: give numbers of designs,"
-                         " or failed") from None
+        raise StudyError(
+            f"-redo {' '.join(words)}: give numbers of designs," " or failed"
+        ) from None
 
 
 def main():
     options = vars(parser().parse_args())
     verb = options.pop("verb")
     if verb == "run":
-        options["redo"] = redoOf(options["redo"])
+        options["redo"] = redo_of(options["redo"])
     # Late, so that what one verb needs does not slow the others
-    from .studyFile import Study
+    from .study_file import Study
+
     study = Study(options.pop("study"))
     module = importlib.import_module(
-        "." + {"run": "sweep"}.get(verb, verb), __package__)
+        "." + {"run": "sweep"}.get(verb, verb), __package__
+    )
     return getattr(module, verb)(study, **options)
 
 
-if __name__ == "__main__":
+def command():
+    """The same with errors as a line for the user; the exit status."""
     try:
-        sys.exit(main())
+        return main()
     except StudyError as error:
         print(f"Error: {error}", file=sys.stderr)
-        sys.exit(1)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(command())

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import caseFolder, foamEntry, sampling
+from . import case_folder, foam_entry, sampling
 from .errors import StudyError
 
 # Larger files of a template are meshes and fields
@@ -20,104 +20,123 @@ TEXT_LIMIT = 10**6
 
 def check(study, quiet=False):
     """Stops with a StudyError; otherwise says what the study is."""
-    checkFolders(study)
-    checkTargets(study)
-    checkCommands(study)
-    share = checkFeasible(study)
+    check_folders(study)
+    check_targets(study)
+    check_commands(study)
+    share = check_feasible(study)
     if not quiet:
         describe(study, share)
 
 
-def checkFolders(study):
+def check_folders(study):
     if not study.template.is_dir():
-        raise StudyError(f"template: {study.template} is no folder. Give the"
-                         " template case's, relative to the study file")
+        raise StudyError(
+            f"template: {study.template} is no folder. Give the"
+            " template case's, relative to the study file"
+        )
     if study.folder == study.template or study.folder in (
-            study.template.parents):
+        study.template.parents
+    ):
         raise StudyError(
             f"folder: {study.folder} holds the template. Give the study a"
-            " folder of its own")
+            " folder of its own"
+        )
 
 
 def texts(study):
     """The template's text files, as far as they are copied: {path: text}."""
     found = {}
-    for path in caseFolder.templateFiles(study):
+    for path in case_folder.template_files(study):
         if path.is_file() and path.stat().st_size < TEXT_LIMIT:
             with contextlib.suppress(UnicodeDecodeError):
                 found[path.relative_to(study.template)] = path.read_text()
     return found
 
 
-def checkTargets(study):
+def check_targets(study):
     """Every parameter must go somewhere, and that must be there."""
     used = set().union(*(d.expression.names for d in study.derived))
     aimed = {name for name, _ in study.targets()}
-    if study.parametersFile:
-        checkParametersFile(study, used | aimed)
+    if study.parameters_file:
+        check_parameters_file(study, used | aimed)
     else:
         for name in study.names:
             if name not in used | aimed:
                 raise StudyError(
                     f"parameters/{name} goes nowhere. Give it file and entry,"
-                    " or give the study a parametersFile")
+                    " or give the study a parametersFile"
+                )
     for name, target in study.targets():
-        checkEntry(study, name, target)
+        check_entry(study, name, target)
 
 
-def checkParametersFile(study, elsewhere):
-    own = Path(study.parametersFile)
+def check_parameters_file(study, elsewhere):
+    own = Path(study.parameters_file)
     files = texts(study)
     present = files.pop(own, None)
     readers = {p: t for p, t in files.items() if own.name in t}
-    including = [p for p, t in readers.items() if re.search(
-        rf'#include\w*\s+"[^"]*\b{re.escape(own.name)}"', t)]
-    steps = " ".join(step.run for s in study.strategies.values()
-                     for step in s.steps)
+    including = [
+        p
+        for p, t in readers.items()
+        if re.search(rf'#include\w*\s+"[^"]*\b{re.escape(own.name)}"', t)
+    ]
+    steps = " ".join(
+        step.run for s in study.strategies.values() for step in s.steps
+    )
     if not readers and own.name not in steps:
         raise StudyError(
             f"parametersFile: no file of {study.template} mentions {own.name}."
             f' Write #include "{own.name}" (with the path from there) into the'
-            " dictionaries that use the parameters")
+            " dictionaries that use the parameters"
+        )
     if present is not None:
-        checkSameNames(study, own, present)
+        check_same_names(study, own, present)
     if len(including) == len(readers) and own.name not in steps:
         everything = "\n".join(files.values())
         for name in study.names:
             if name not in elsewhere and not re.search(
-                    rf"\$(\{{)?{name}\b", everything):
+                rf"\$(\{{)?{name}\b", everything
+            ):
                 raise StudyError(
                     f"parameters/{name} goes nowhere: no dictionary of"
                     f" {study.template} uses ${name}, no derived quantity"
-                    " does, and it has no file and entry")
+                    " does, and it has no file and entry"
+                )
 
 
-def checkSameNames(study, own, text):
+def check_same_names(study, own, text):
     """A file of parameters in the template is replaced: it must not have more
     than what replaces it."""
-    plain = re.sub(r"//.*|/\*.*?\*/|FoamFile\s*\{.*?\}", "", text,
-                   flags=re.DOTALL if "/*" in text else 0)
+    plain = re.sub(
+        r"//.*|/\*.*?\*/|FoamFile\s*\{.*?\}",
+        "",
+        text,
+        flags=re.DOTALL if "/*" in text else 0,
+    )
     there = re.findall(r"^\s*([A-Za-z_]\w*)\s+[^;{]*;", plain, re.MULTILINE)
-    extra = [name for name in there if name not in study.baselineValues]
+    extra = [name for name in there if name not in study.baseline_values]
     if extra:
         raise StudyError(
             f"parametersFile: {own} of the template also sets"
             f" {', '.join(extra)}, which the study does not. It is replaced in"
             " each design: make these derived quantities of the study, or put"
-            " them into another file")
+            " them into another file"
+        )
 
 
-def checkEntry(study, name, target):
+def check_entry(study, name, target):
     path = study.template / target.file
     if not path.is_file():
-        raise StudyError(f"{name}/file: {target.file} is no file of"
-                         f" {study.template}")
+        raise StudyError(
+            f"{name}/file: {target.file} is no file of" f" {study.template}"
+        )
     try:
-        foamEntry.number(path.read_text(), target.entry)
-    except (UnicodeDecodeError, foamEntry.EntryError) as error:
+        foam_entry.number(path.read_text(), target.entry)
+    except (UnicodeDecodeError, foam_entry.EntryError) as error:
         raise StudyError(
             f"{name}/entry: {target.file}: {error}. What comes by #include is"
-            " set in the included file") from None
+            " set in the included file"
+        ) from None
 
 
 def commands(study):
@@ -125,7 +144,7 @@ def commands(study):
     for strategy in study.strategies.values():
         for step in strategy.steps:
             yield f"strategies/{strategy.name}/steps/{step.name}", step.run
-    for step in study.baselineSteps or []:
+    for step in study.baseline_steps or []:
         yield f"baseline/steps/{step.name}", step.run
     for response in study.responses.values():
         if response.command:
@@ -134,23 +153,30 @@ def commands(study):
         yield "picture", study.picture
 
 
-def checkCommands(study):
+def check_commands(study):
     """The first word of each command must be something that can be run."""
     for where, command in commands(study):
-        syntax = subprocess.run(["bash", "-n", "-c", command], text=True,
-                                stderr=subprocess.PIPE)
+        syntax = subprocess.run(
+            ["bash", "-n", "-c", command], text=True, stderr=subprocess.PIPE
+        )
         if syntax.returncode:
-            raise StudyError(f"{where}: '{command}' is no command:"
-                             f" {syntax.stderr.strip().splitlines()[-1]}")
-        word = firstWord(command)
+            raise StudyError(
+                f"{where}: '{command}' is no command:"
+                f" {syntax.stderr.strip().splitlines()[-1]}"
+            )
+        word = first_word(command)
         if word and not found(word, study.template):
             raise StudyError(
                 f"{where}: there is no command {word}"
-                + (f" in {study.template}" if "/" in word
-                   else " on the path. Is OpenFOAM's environment sourced?"))
+                + (
+                    f" in {study.template}"
+                    if "/" in word
+                    else " on the path. Is OpenFOAM's environment sourced?"
+                )
+            )
 
 
-def firstWord(command):
+def first_word(command):
     """The program a command starts, where that is plain to see."""
     try:
         words = shlex.split(command)
@@ -163,31 +189,44 @@ def firstWord(command):
 
 
 def found(word, folder):
-    return subprocess.run(
-        ["bash", "-c", f"type -t {shlex.quote(word)}"], cwd=folder,
-        stdout=subprocess.DEVNULL).returncode == 0
+    return (
+        subprocess.run(
+            ["bash", "-c", f"type -t {shlex.quote(word)}"],
+            cwd=folder,
+            stdout=subprocess.DEVNULL,
+        ).returncode
+        == 0
+    )
 
 
-def checkFeasible(study):
+def check_feasible(study):
     """The feasible share of the box; stops where there is none."""
     if study.sampling.method == "factorial":
         sampling.sample(study, [])
-    return sampling.feasibleProbes(study)[1]
+    return sampling.feasible_probes(study)[1]
 
 
 def describe(study, share):
-    print(f"{study.path.name}: {len(study.names)} parameters,"
-          f" {len(study.responses)} responses, strategies"
-          f" {' '.join(study.strategies)}")
+    print(
+        f"{study.path.name}: {len(study.names)} parameters,"
+        f" {len(study.responses)} responses, strategies"
+        f" {' '.join(study.strategies)}"
+    )
     print(f"feasible: {100*share:.3g} % of the box of the bounds")
-    outside = [p.name for p in study.parameters
-               if not p.low <= p.baseline <= p.high]
+    outside = [
+        p.name for p in study.parameters if not p.low <= p.baseline <= p.high
+    ]
     broken = study.broken(study.baseline)
     if outside or broken:
-        print("Note: the baseline is outside the designs' space ("
-              + ", ".join([*outside, *broken]) + ")")
+        print(
+            "Note: the baseline is outside the designs' space ("
+            + ", ".join([*outside, *broken])
+            + ")"
+        )
     if study.sampling.method == "factorial":
         points = np.prod(list(study.sampling.levels.values()))
-        print(f"factorial: {len(sampling.sample(study, []))} of {points} points"
-              " of the grid keep to the constraints")
+        print(
+            f"factorial: {len(sampling.sample(study, []))} of {points} points"
+            " of the grid keep to the constraints"
+        )
     print("No mistake found")

@@ -41,32 +41,44 @@ def read(study):
             raise StudyError(
                 f"{path(study)} has the columns {' '.join(row)}, and the study"
                 f" file the parameters {' '.join(study.names)}. Use another"
-                " folder for another set of parameters")
-        designs.append(Design(
-            int(row["number"]), row["origin"],
-            {name: float(row[name]) for name in study.names}))
+                " folder for another set of parameters"
+            )
+        designs.append(
+            Design(
+                int(row["number"]),
+                row["origin"],
+                {name: float(row[name]) for name in study.names},
+            )
+        )
     return designs
 
 
 def points(study, designs):
-    return np.array([[d.parameters[name] for name in study.names]
-                     for d in designs]).reshape(-1, len(study.names))
+    return np.array(
+        [[d.parameters[name] for name in study.names] for d in designs]
+    ).reshape(-1, len(study.names))
 
 
-def add(study, newPoints, origin):
+def add(study, new_points, origin):
     """Append designs; the file is replaced at once, so that it is whole."""
     designs = read(study)
     first = designs[-1].number + 1 if designs else 1
     added = [
         Design(first + i, origin, dict(zip(study.names, map(float, point))))
-        for i, point in enumerate(newPoints)]
+        for i, point in enumerate(new_points)
+    ]
     study.folder.mkdir(parents=True, exist_ok=True)
     new = path(study).with_suffix(".new")
     with new.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["number", "origin", *study.names])
         for d in [*designs, *added]:
-            writer.writerow([d.number, d.origin,
-                             *(repr(d.parameters[n]) for n in study.names)])
+            writer.writerow(
+                [
+                    d.number,
+                    d.origin,
+                    *(repr(d.parameters[n]) for n in study.names),
+                ]
+            )
     os.replace(new, path(study))
     return added

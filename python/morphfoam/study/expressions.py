@@ -17,14 +17,26 @@ import numpy as np
 from .errors import StudyError
 
 OPERATORS = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
-    ast.Div: np.true_divide, ast.Pow: np.power, ast.USub: operator.neg,
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: np.true_divide,
+    ast.Pow: np.power,
+    ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
 FUNCTIONS = {
-    "abs": np.abs, "sqrt": np.sqrt, "exp": np.exp, "log": np.log,
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin,
-    "acos": np.arccos, "atan": np.arctan, "radians": np.radians,
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "log": np.log,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "atan": np.arctan,
+    "radians": np.radians,
     "degrees": np.degrees,
     "min": lambda *v: np.minimum.reduce(np.broadcast_arrays(*v)),
     "max": lambda *v: np.maximum.reduce(np.broadcast_arrays(*v)),
@@ -42,7 +54,8 @@ def parse(text, where):
     except SyntaxError as error:
         raise StudyError(
             f"{where}: '{text}' is no expression ({error.msg}). Write numbers,"
-            " names and + - * / ** ( )") from None
+            " names and + - * / ** ( )"
+        ) from None
 
 
 class Expression:
@@ -51,14 +64,16 @@ class Expression:
     def __init__(self, text, where="expression", node=None):
         self.text, self.where = str(text), where
         self.node = parse(text, where) if node is None else node
-        self.names, self.baselineNames = set(), set()
+        self.names, self.baseline_names = set(), set()
         self._inspect(self.node)
 
     def _refuse(self, node, why):
         raise StudyError(
             f"{self.where}: '{ast.unparse(node)}' in '{self.text}' {why}."
             " Allowed are numbers, names, + - * / **, and "
-            + " ".join(sorted(FUNCTIONS)) + " pi")
+            + " ".join(sorted(FUNCTIONS))
+            + " pi"
+        )
 
     def _inspect(self, node):
         """Collect the names; refuse whatever is not arithmetic."""
@@ -69,18 +84,25 @@ class Expression:
             if node.id not in CONSTANTS:
                 self.names.add(node.id)
         elif isinstance(node, ast.Attribute):
-            if not (isinstance(node.value, ast.Name)
-                    and node.value.id == "baseline"):
+            if not (
+                isinstance(node.value, ast.Name)
+                and node.value.id == "baseline"
+            ):
                 self._refuse(node, "is not baseline.NAME")
-            self.baselineNames.add(node.attr)
+            self.baseline_names.add(node.attr)
         elif isinstance(node, ast.BinOp) and type(node.op) in OPERATORS:
             self._inspect(node.left)
             self._inspect(node.right)
         elif isinstance(node, ast.UnaryOp) and type(node.op) in OPERATORS:
             self._inspect(node.operand)
         elif isinstance(node, ast.Call):
-            if not (isinstance(node.func, ast.Name)
-                    and node.func.id in FUNCTIONS) or node.keywords:
+            if (
+                not (
+                    isinstance(node.func, ast.Name)
+                    and node.func.id in FUNCTIONS
+                )
+                or node.keywords
+            ):
                 self._refuse(node, "is no known function")
             several = node.func.id in ("min", "max")
             if not node.args or (len(node.args) > 1 and not several):
@@ -92,12 +114,13 @@ class Expression:
 
     def check(self, known):
         """Stop unless all names are known."""
-        unknown = (self.names | self.baselineNames) - set(known)
+        unknown = (self.names | self.baseline_names) - set(known)
         if unknown:
             raise StudyError(
                 f"{self.where}: '{self.text}' uses {', '.join(sorted(unknown))}"
                 ", which stands nowhere before it. Known here: "
-                + (", ".join(known) or "nothing"))
+                + (", ".join(known) or "nothing")
+            )
 
     def __call__(self, values, baseline=None):
         with np.errstate(all="ignore"):
@@ -113,12 +136,15 @@ class Expression:
         if isinstance(node, ast.BinOp):
             return OPERATORS[type(node.op)](
                 self._value(node.left, values, baseline),
-                self._value(node.right, values, baseline))
+                self._value(node.right, values, baseline),
+            )
         if isinstance(node, ast.UnaryOp):
             return OPERATORS[type(node.op)](
-                self._value(node.operand, values, baseline))
+                self._value(node.operand, values, baseline)
+            )
         return FUNCTIONS[node.func.id](
-            *(self._value(a, values, baseline) for a in node.args))
+            *(self._value(a, values, baseline) for a in node.args)
+        )
 
 
 class Condition:
@@ -146,14 +172,17 @@ class Condition:
         """Nested tuples ('all'|'any', parts) and (side, side): left <= right."""
         if isinstance(node, ast.BoolOp):
             every = isinstance(node.op, ast.And) != negate
-            return ("all" if every else "any",
-                    [self._build(v, negate) for v in node.values])
+            return (
+                "all" if every else "any",
+                [self._build(v, negate) for v in node.values],
+            )
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
             return self._build(node.operand, not negate)
         if not isinstance(node, ast.Compare):
             raise StudyError(
                 f"{self.where}: '{self.text}' compares nothing. Write for"
-                " example 'a <= 2*b'")
+                " example 'a <= 2*b'"
+            )
         sides = [self._leaf(n) for n in [node.left, *node.comparators]]
         parts = []
         for left, comparison, right in zip(sides, node.ops, sides[1:]):
@@ -165,7 +194,8 @@ class Condition:
                 raise StudyError(
                     f"{self.where}: '{self.text}' compares by something other"
                     " than < <= > >=. An equality leaves no room for designs:"
-                    " make one of the two a derived quantity")
+                    " make one of the two a derived quantity"
+                )
         return ("any" if negate else "all", parts)
 
     def violation(self, values, baseline=None):
@@ -176,8 +206,10 @@ class Condition:
         if node[0] in ("all", "any"):
             parts = [self._violation(n, values, baseline) for n in node[1]]
             return (np.add if node[0] == "all" else np.minimum).reduce(
-                np.broadcast_arrays(*parts))
+                np.broadcast_arrays(*parts)
+            )
         left, right = (side(values, baseline) for side in node)
         missed = np.nan_to_num(left - right, nan=np.inf)
-        return np.where(missed > ROUNDING*(np.abs(left) + np.abs(right)),
-                        missed, 0.0)
+        return np.where(
+            missed > ROUNDING * (np.abs(left) + np.abs(right)), missed, 0.0
+        )

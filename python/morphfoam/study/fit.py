@@ -11,16 +11,21 @@ from .errors import StudyError
 
 def finished(study, strategy, origin=designs.SAMPLED):
     """Designs that are done, with their outcomes."""
-    pairs = [(d, outcomes.read(study, strategy, d.number))
-             for d in designs.read(study) if origin in (None, d.origin)]
-    return [(d, o) for d, o in pairs if outcomes.isDone(o)]
+    pairs = [
+        (d, outcomes.read(study, strategy, d.number))
+        for d in designs.read(study)
+        if origin in (None, d.origin)
+    ]
+    return [(d, o) for d, o in pairs if outcomes.is_done(o)]
 
 
 def models(study, strategy):
     """{response: model} of what the study file wants fitted."""
     if strategy not in study.strategies:
-        raise StudyError(f"there is no strategy {strategy}; the strategies are"
-                         f" {' '.join(study.strategies)}")
+        raise StudyError(
+            f"there is no strategy {strategy}; the strategies are"
+            f" {' '.join(study.strategies)}"
+        )
     pairs = finished(study, strategy)
     points = designs.points(study, [d for d, _ in pairs])
     for design, outcome in pairs:
@@ -28,10 +33,14 @@ def models(study, strategy):
         if lacking:
             raise StudyError(
                 f"design {design.id} has no response {lacking[0]}: it was added"
-                " to the study file later. 'morphStudy run' reads it")
-    return {name: metamodel.fit(
-        study, name, points, [o["responses"][name] for _, o in pairs])
-        for name in study.fitted}
+                " to the study file later. 'morphStudy run' reads it"
+            )
+    return {
+        name: metamodel.fit(
+            study, name, points, [o["responses"][name] for _, o in pairs]
+        )
+        for name in study.fitted
+    }
 
 
 def folder(study, strategy):
@@ -52,16 +61,36 @@ def fit(study, strategy=None):
         writer.writerows(rows)
     with (path / "leaveOneOut.csv").open("w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(["response", "design", "computed", "predicted",
-                         "standardDeviation"])
+        writer.writerow(
+            [
+                "response",
+                "design",
+                "computed",
+                "predicted",
+                "standardDeviation",
+            ]
+        )
         for name, model in found.items():
-            writer.writerows(zip([name]*len(numbers), numbers, model.y,
-                                 model.predicted, model.deviation))
-    plots.leaveOneOut(found, path / "leaveOneOut.png")
-    print(f"{strategy}: {len(numbers)} designs; lengths in units of the bounds")
+            writer.writerows(
+                zip(
+                    [name] * len(numbers),
+                    numbers,
+                    model.y,
+                    model.predicted,
+                    model.deviation,
+                )
+            )
+    plots.leave_one_out(found, path / "leaveOneOut.png")
+    print(
+        f"{strategy}: {len(numbers)} designs; lengths in units of the bounds"
+    )
     for row in rows:
-        print("  ".join(f"{k} {v:.4g}" if isinstance(v, float) else f"{v}:"
-                        for k, v in row.items()))
+        print(
+            "  ".join(
+                f"{k} {v:.4g}" if isinstance(v, float) else f"{v}:"
+                for k, v in row.items()
+            )
+        )
     print(path / "leaveOneOut.png")
 
 
@@ -69,10 +98,14 @@ def summary(model):
     """What a reader wants to know of a model."""
     errors = abs(model.errors)
     return {
-        "response": model.name, "Q2": float(model.q2),
-        "rmsError": float((errors**2).mean()**0.5),
+        "response": model.name,
+        "Q2": float(model.q2),
+        "rmsError": float((errors**2).mean() ** 0.5),
         "maxError": float(errors.max()),
         "range": float(model.y.max() - model.y.min()),
         "noise": float(model.noise),
-        **{f"length.{n}": float(length) for n, length in zip(
-            model.study.names, model.lengths)}}
+        **{
+            f"length.{n}": float(length)
+            for n, length in zip(model.study.names, model.lengths)
+        },
+    }

@@ -14,14 +14,16 @@ import re
 SPACE = re.compile(r"(?:\s+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 # What may hold a brace or a semicolon that is none
 OPAQUE = re.compile(
-    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|#\{.*?#\}', re.DOTALL)
+    r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/|#\{.*?#\}', re.DOTALL
+)
 LINE = re.compile(r"[^\n]*")
 KEYWORD = re.compile(r'"(?:\\.|[^"\\])*"|[^\s;{}"]+')
 # A number alone, or after what may stand before one: a word (uniform, the name
 # of a dimensioned scalar) and dimensions
 NUMBER = re.compile(
     r"(?:[A-Za-z_]\w*\s+)?(?:\[[^\]]*\]\s*)?"
-    r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\Z")
+    r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\Z"
+)
 
 
 class EntryError(Exception):
@@ -57,10 +59,12 @@ def entries(text, start, end):
             if not keyword:
                 raise EntryError(f"'{text[i:i + 20]}' is no keyword")
             value = SPACE.match(text, keyword.end()).end()
-            isDict = text[value:value + 1] == "{"
-            stop = skip(text, value + isDict, "}" if isDict else ";")
+            is_dict = text[value : value + 1] == "{"
+            stop = skip(text, value + is_dict, "}" if is_dict else ";")
             if not keyword.group().startswith("$"):
-                yield keyword.group().strip('"'), isDict, value + isDict, stop
+                yield keyword.group().strip(
+                    '"'
+                ), is_dict, value + is_dict, stop
             i = stop + 1
         i = SPACE.match(text, i).end()
 
@@ -69,15 +73,16 @@ def entry(text, path):
     """Start and end of the value of an entry; words are separated by '/'."""
     start, end, above = 0, len(text), "the file"
     *folders, last = path.split("/")
-    for word, wantsDict in [*((w, True) for w in folders), (last, False)]:
+    for word, wants_dict in [*((w, True) for w in folders), (last, False)]:
         found = list(entries(text, start, end))
         # As OpenFOAM has it, the last of the same name counts
-        spans = [e[2:] for e in found if e[0] == word and e[1] == wantsDict]
+        spans = [e[2:] for e in found if e[0] == word and e[1] == wants_dict]
         if not spans:
-            kind = "dictionary" if wantsDict else "entry"
+            kind = "dictionary" if wants_dict else "entry"
             raise EntryError(
                 f"there is no {kind} {word} in {above}, but"
-                f" {' '.join(dict.fromkeys(e[0] for e in found)) or 'nothing'}")
+                f" {' '.join(dict.fromkeys(e[0] for e in found)) or 'nothing'}"
+            )
         start, end = spans[-1]
         above = word
     return start, end
@@ -91,7 +96,8 @@ def number(text, path):
     if not found:
         raise EntryError(
             f"the entry {path} is '{' '.join(value.split())[:60]}', which is no"
-            " single number. Write $NAME there and use a parametersFile")
+            " single number. Write $NAME there and use a parametersFile"
+        )
     return start + found.start(1), start + found.end(1)
 
 

@@ -12,37 +12,59 @@ from . import designs, fit, outcomes, pareto, plots, sampling, sweep
 from .errors import StudyError
 
 
-def optimise(study, strategy=None, noRuns=False, cores=None, profile=None):
+def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
     if study.optimise is None:
-        raise StudyError("the study file has no optimise: nothing says what is"
-                         " better. Add for example"
-                         " 'optimise: {objectives: {Nu: maximise}}'")
+        raise StudyError(
+            "the study file has no optimise: nothing says what is"
+            " better. Add for example"
+            " 'optimise: {objectives: {Nu: maximise}}'"
+        )
     strategy = strategy or next(iter(study.strategies))
     found = fit.models(study, strategy)
     points, objectives = front(study, found)
     label, chosen, bic = pareto.clusters(
-        points, study.lows, study.highs, study.optimise.maxClusters,
-        study.optimise.seed)
+        points,
+        study.lows,
+        study.highs,
+        study.optimise.max_clusters,
+        study.optimise.seed,
+    )
     path = study.folder / f"optimise.{strategy}"
     path.mkdir(exist_ok=True)
     names = list(study.optimise.objectives)
-    writeTable(path / "front.csv", [*study.names, *names, "cluster"], [
-        [*map(float, p), *map(float, o), int(k) + 1]
-        for p, o, k in zip(points, objectives, label)])
-    print(f"front of {len(points)} points in {len(chosen)} clusters; BIC of 1 to"
-          f" {len(bic)} clusters: {' '.join(f'{b:.0f}' for b in bic)}")
+    write_table(
+        path / "front.csv",
+        [*study.names, *names, "cluster"],
+        [
+            [*map(float, p), *map(float, o), int(k) + 1]
+            for p, o, k in zip(points, objectives, label)
+        ],
+    )
+    print(
+        f"front of {len(points)} points in {len(chosen)} clusters; BIC of 1 to"
+        f" {len(bic)} clusters: {' '.join(f'{b:.0f}' for b in bic)}"
+    )
 
     verified = representatives(study, points[chosen])
     status = 0
-    if not noRuns:
-        status = sweep.run(study, strategy, cores, profile=profile,
-                           only=[d.number for d in verified])
+    if not no_runs:
+        status = sweep.run(
+            study,
+            strategy,
+            cores,
+            profile=profile,
+            only=[d.number for d in verified],
+        )
     rows = compare(study, strategy, found, verified, label[chosen])
-    writeTable(path / "representatives.csv", list(rows[0]),
-               [list(row.values()) for row in rows])
+    write_table(
+        path / "representatives.csv",
+        list(rows[0]),
+        [list(row.values()) for row in rows],
+    )
     report(rows, names)
-    plots.front(study, strategy, points, objectives, label, rows,
-                path / "front.png")
+    plots.front(
+        study, strategy, points, objectives, label, rows, path / "front.png"
+    )
     plots.shapes(study, points, label, rows, path / "shapes.png")
     print(path / "front.png")
     return status
@@ -54,36 +76,54 @@ def front(study, found):
 
     def evaluate(rows):
         predictions = {name: model(rows) for name, model in found.items()}
-        values = {**study.values(dict(zip(study.names, rows.T))), **predictions}
+        values = {
+            **study.values(dict(zip(study.names, rows.T))),
+            **predictions,
+        }
         violation = sum(
-            (c.violation(values, study.baselineValues) for c in limits),
-            np.zeros(len(rows)))
-        return np.stack([predictions[n] for n in wanted.objectives],
-                        axis=1), violation
+            (c.violation(values, study.baseline_values) for c in limits),
+            np.zeros(len(rows)),
+        )
+        return (
+            np.stack([predictions[n] for n in wanted.objectives], axis=1),
+            violation,
+        )
 
     limits = [*study.constraints, *wanted.constraints]
     points, objectives = pareto.nsga2(
-        evaluate, study.lows, study.highs, list(wanted.objectives.values()),
-        wanted.population, wanted.generations, wanted.seed)
+        evaluate,
+        study.lows,
+        study.highs,
+        list(wanted.objectives.values()),
+        wanted.population,
+        wanted.generations,
+        wanted.seed,
+    )
     if not len(points):
         raise StudyError(
             "optimise/constraints: no design that keeps to all of them was"
             " found on the metamodels. They are: "
-            + "; ".join(c.text for c in wanted.constraints))
+            + "; ".join(c.text for c in wanted.constraints)
+        )
     return points, objectives
 
 
 def representatives(study, points):
     """Their designs: those there are, and new ones."""
     table = designs.read(study)
-    with sweep.onlyOne(study):
-        new = [p for p in points if sampling.isNew(
-            p, designs.points(study, table), study)]
+    with sweep.only_one(study):
+        new = [
+            p
+            for p in points
+            if sampling.is_new(p, designs.points(study, table), study)
+        ]
         table += designs.add(study, new, designs.VERIFICATION)
     found = designs.points(study, table)
     span = study.highs - study.lows
-    return [table[int(np.abs((found - p)/span).max(axis=1).argmin())]
-            for p in points]
+    return [
+        table[int(np.abs((found - p) / span).max(axis=1).argmin())]
+        for p in points
+    ]
 
 
 def compare(study, strategy, found, verified, label):
@@ -91,24 +131,26 @@ def compare(study, strategy, found, verified, label):
     rows = []
     for design, k in zip(verified, label):
         outcome = outcomes.read(study, strategy, design.number)
-        row = {"cluster": int(k) + 1, "design": design.id,
-               **design.parameters}
+        row = {"cluster": int(k) + 1, "design": design.id, **design.parameters}
         point = np.array([[design.parameters[n] for n in study.names]])
         for name, model in found.items():
-            mean, deviation = model.withDeviation(point)
+            mean, deviation = model.with_deviation(point)
             row[f"{name}.predicted"] = float(mean[0])
             row[f"{name}.deviation"] = float(deviation[0])
             computed = row[f"{name}.computed"] = (
-                outcome["responses"][name] if outcomes.isDone(outcome) else "")
+                outcome["responses"][name] if outcomes.is_done(outcome) else ""
+            )
             row[f"{name}.error%"] = (
-                100*(float(mean[0]) - computed)/abs(computed)
-                if computed not in ("", 0) else "")
+                100 * (float(mean[0]) - computed) / abs(computed)
+                if computed not in ("", 0)
+                else ""
+            )
         row["status"] = outcome["status"] if outcome else "not run"
         rows.append(row)
     return rows
 
 
-def writeTable(path, header, rows):
+def write_table(path, header, rows):
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(header)
@@ -117,14 +159,25 @@ def writeTable(path, header, rows):
 
 def report(rows, names):
     for row in rows:
-        said = [f"{n} {row[n + '.predicted']:.5g} predicted" + (
-            f", {row[n + '.computed']:.5g} computed ({row[n + '.error%']:+.2f} %)"
-            if row[f"{n}.error%"] != "" else "") for n in names]
-        print(f"cluster {row['cluster']}, design {row['design']}"
-              f" ({row['status']}): " + "; ".join(said))
+        said = [
+            f"{n} {row[n + '.predicted']:.5g} predicted"
+            + (
+                f", {row[n + '.computed']:.5g} computed ({row[n + '.error%']:+.2f} %)"
+                if row[f"{n}.error%"] != ""
+                else ""
+            )
+            for n in names
+        ]
+        print(
+            f"cluster {row['cluster']}, design {row['design']}"
+            f" ({row['status']}): " + "; ".join(said)
+        )
     for name in names:
-        errors = [abs(r[f"{name}.error%"]) for r in rows
-                  if r[f"{name}.error%"] != ""]
+        errors = [
+            abs(r[f"{name}.error%"]) for r in rows if r[f"{name}.error%"] != ""
+        ]
         if errors:
-            print(f"{name}: predicted against computed, mean"
-                  f" {np.mean(errors):.2f} %, largest {max(errors):.2f} %")
+            print(
+                f"{name}: predicted against computed, mean"
+                f" {np.mean(errors):.2f} %, largest {max(errors):.2f} %"
+            )

@@ -13,9 +13,18 @@ BASELINE = "baseline"
 
 # An outcome of which nothing is known yet; what reading one falls back on
 BLANK = {
-    "startedFrom": "template", "baselineMade": None, "templateHash": None,
-    "wall": {}, "cpu": {}, "responses": {}, "notes": {}, "quality": {},
-    "motion": {}, "iterations": None, "picture": ""}
+    "startedFrom": "template",
+    "baselineMade": None,
+    "templateHash": None,
+    "wall": {},
+    "cpu": {},
+    "responses": {},
+    "notes": {},
+    "quality": {},
+    "motion": {},
+    "iterations": None,
+    "picture": "",
+}
 
 
 def path(study, strategy, number=None):
@@ -52,7 +61,7 @@ def write(study, outcome):
     os.replace(new, file)
 
 
-def isDone(outcome):
+def is_done(outcome):
     return outcome is not None and outcome["status"] == DONE
 
 
@@ -62,7 +71,7 @@ def recipe(study, strategy):
     change."""
     made = {
         "exclude": study.exclude,
-        "parametersFile": study.parametersFile,
+        "parametersFile": study.parameters_file,
         "targets": {name: [t.file, t.entry] for name, t in study.targets()},
         "derived": {d.name: d.expression.text for d in study.derived},
         "baseline": study.baseline,
@@ -72,7 +81,7 @@ def recipe(study, strategy):
         made["steps"] = steps(study.strategies[strategy].steps)
         start = made["start"] = study.strategies[strategy].start
     if start != "template" or strategy == BASELINE:
-        made["baseline steps"] = steps(study.baselineSteps)
+        made["baseline steps"] = steps(study.baseline_steps)
     return made
 
 
@@ -86,8 +95,12 @@ def changes(study, strategy, outcome):
     return sorted(k for k in now if now[k] != outcome["made"].get(k))
 
 
-def responseTexts(study):
+def response_texts(study):
     """What responses and notes are read by, to see when that has changed."""
-    return {name: [str(v.text if k == "expression" and v else v)
-                   for k, v in vars(r).items()]
-            for name, r in [*study.responses.items(), *study.notes.items()]}
+    return {
+        name: [
+            str(v.text if k == "expression" and v else v)
+            for k, v in vars(r).items()
+        ]
+        for name, r in [*study.responses.items(), *study.notes.items()]
+    }

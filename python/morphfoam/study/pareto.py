@@ -42,7 +42,7 @@ def nsga2(evaluate, lows, highs, signs, population, generations, seed):
         objectives, violation = evaluate(np.array(individuals))
         for item, values, missed in zip(individuals, objectives, violation):
             if missed > 0:
-                values = -np.array(signs)*INFEASIBLE*(1 + missed)
+                values = -np.array(signs) * INFEASIBLE * (1 + missed)
             item.fitness.values = tuple(map(float, values))
 
     def children(parents):
@@ -50,15 +50,18 @@ def nsga2(evaluate, lows, highs, signs, population, generations, seed):
         for a, b in zip(made[::2], made[1::2]):
             if random.random() < CROSSOVER:
                 tools.cxSimulatedBinaryBounded(
-                    a, b, ETA_CROSSOVER, list(lows), list(highs))
+                    a, b, ETA_CROSSOVER, list(lows), list(highs)
+                )
         for item in made:
             tools.mutPolynomialBounded(
-                item, ETA_MUTATION, list(lows), list(highs), 1/len(lows))
+                item, ETA_MUTATION, list(lows), list(highs), 1 / len(lows)
+            )
         return made
 
     random.seed(seed)
     start = np.random.default_rng(seed).uniform(
-        lows, highs, (population, len(lows)))
+        lows, highs, (population, len(lows))
+    )
     people = [Individual(map(float, row)) for row in start]
     rate(people)
     people = tools.selNSGA2(people, population)
@@ -67,13 +70,16 @@ def nsga2(evaluate, lows, highs, signs, population, generations, seed):
         rate(made)
         people = tools.selNSGA2(people + made, population)
 
-    front = tools.sortNondominated(
-        people, population, first_front_only=True)[0]
+    front = tools.sortNondominated(people, population, first_front_only=True)[
+        0
+    ]
     feasible = [p for p in front if abs(p.fitness.values[0]) < INFEASIBLE]
     rows = {tuple(p): p.fitness.values for p in feasible}
     order = sorted(rows, key=lambda row: rows[row])
-    return (np.array(order).reshape(-1, len(lows)),
-            np.array([rows[row] for row in order]).reshape(-1, len(signs)))
+    return (
+        np.array(order).reshape(-1, len(lows)),
+        np.array([rows[row] for row in order]).reshape(-1, len(signs)),
+    )
 
 
 def clusters(points, lows, highs, most, seed):
@@ -82,13 +88,16 @@ def clusters(points, lows, highs, most, seed):
     clusters."""
     from sklearn.mixture import GaussianMixture
 
-    x = (points - lows)/(highs - lows)
+    x = (points - lows) / (highs - lows)
     mixtures = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        for count in range(1, min(most, len(x)//(2*x.shape[1]) or 1) + 1):
-            mixtures.append(GaussianMixture(
-                count, reg_covar=SAME**2, n_init=5, random_state=seed).fit(x))
+        for count in range(1, min(most, len(x) // (2 * x.shape[1]) or 1) + 1):
+            mixtures.append(
+                GaussianMixture(
+                    count, reg_covar=SAME**2, n_init=5, random_state=seed
+                ).fit(x)
+            )
     bic = [m.bic(x) for m in mixtures]
     best = mixtures[int(np.argmin(bic))]
     label = best.predict(x)

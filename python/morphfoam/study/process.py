@@ -14,20 +14,21 @@ import time
 PR_SET_PDEATHSIG = 1
 
 
-def dieWithParent(isParent):
+def die_with_parent(is_parent):
     """Be killed when the process that started this one ends (Linux), or at once
     where that has ended already: isParent(pid) says whether this parent is the
     one."""
     ctypes.CDLL(None, use_errno=True).prctl(
-        PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-    if not isParent(os.getppid()):
+        PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0
+    )
+    if not is_parent(os.getppid()):
         os._exit(1)
 
 
-def startedHere():
+def started_here():
     """For preexec_fn: die with this process."""
     here = os.getpid()
-    return lambda: dieWithParent(lambda pid: pid == here)
+    return lambda: die_with_parent(lambda pid: pid == here)
 
 
 def guard(group):
@@ -55,13 +56,18 @@ def guard(group):
 def run(command, folder, log, timeout=None, environment=None):
     """Run a bash command in a folder, its output in the log. Returns the exit
     status, None after a timeout, and wall and processor time [s]."""
-    start, used = time.monotonic(), processorTime()
+    start, used = time.monotonic(), processor_time()
     with open(log, "w") as output:
         process = subprocess.Popen(
-            ["bash", "-c", command], cwd=folder, stdout=output,
-            stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-            start_new_session=True, preexec_fn=startedHere(),
-            env={**os.environ, "PWD": str(folder), **(environment or {})})
+            ["bash", "-c", command],
+            cwd=folder,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            start_new_session=True,
+            preexec_fn=started_here(),
+            env={**os.environ, "PWD": str(folder), **(environment or {})},
+        )
         pid, pipe = guard(process.pid)
         try:
             status = process.wait(timeout)
@@ -76,10 +82,10 @@ def run(command, folder, log, timeout=None, environment=None):
             os.write(pipe, b".")
             os.close(pipe)
             os.waitpid(pid, 0)
-    return status, time.monotonic() - start, processorTime() - used
+    return status, time.monotonic() - start, processor_time() - used
 
 
-def processorTime():
+def processor_time():
     """Of all processes started from here that have ended [s]."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime

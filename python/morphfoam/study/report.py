@@ -46,10 +46,16 @@ def table(rows, columns=None):
     for row in rows:
         # A design's number is a name
         cells = "".join(
-            f"<td>{html.escape(str(row[c]))}</td>" if c == "design"
-            else '<td{}>{}</td>'.format(
-                ' class="text"' if c in ("reason", "where", "expression")
-                else "", text(row.get(c, ""))) for c in columns)
+            f"<td>{html.escape(str(row[c]))}</td>"
+            if c == "design"
+            else "<td{}>{}</td>".format(
+                ' class="text"'
+                if c in ("reason", "where", "expression")
+                else "",
+                text(row.get(c, "")),
+            )
+            for c in columns
+        )
         failed = ' class="failed"' if row.get("status") == "failed" else ""
         body += f"<tr{failed}>{cells}</tr>\n"
     return f'<div class="wide"><table><tr>{head}</tr>\n{body}</table></div>'
@@ -60,7 +66,7 @@ def image(path, alt=""):
     return f'<img alt="{html.escape(alt)}" src="data:image/png;base64,{data}">'
 
 
-def readTable(path):
+def read_table(path):
     with path.open() as file:
         return list(csv.DictReader(file))
 
@@ -83,18 +89,37 @@ class Report:
 
     def problem(self):
         study = self.study
-        self.add(f"<h1>{html.escape(study.path.stem)}</h1>",
-                 "<h2>What was varied</h2>",
-                 table([{"parameter": p.name, "lowest": p.low,
-                         "highest": p.high, "baseline": p.baseline,
-                         "where": f"{p.target.file}: {p.target.entry}"
-                         if p.target else study.parametersFile}
-                        for p in study.parameters]))
+        self.add(
+            f"<h1>{html.escape(study.path.stem)}</h1>",
+            "<h2>What was varied</h2>",
+            table(
+                [
+                    {
+                        "parameter": p.name,
+                        "lowest": p.low,
+                        "highest": p.high,
+                        "baseline": p.baseline,
+                        "where": f"{p.target.file}: {p.target.entry}"
+                        if p.target
+                        else study.parameters_file,
+                    }
+                    for p in study.parameters
+                ]
+            ),
+        )
         if study.derived:
-            self.add(table([{"derived": d.name,
-                             "expression": d.expression.text,
-                             "baseline": study.baselineValues[d.name]}
-                            for d in study.derived]))
+            self.add(
+                table(
+                    [
+                        {
+                            "derived": d.name,
+                            "expression": d.expression.text,
+                            "baseline": study.baseline_values[d.name],
+                        }
+                        for d in study.derived
+                    ]
+                )
+            )
         for condition in study.constraints:
             self.add(f"<p><code>{html.escape(condition.text)}</code></p>")
 
@@ -104,15 +129,19 @@ class Report:
         rows = results.rows(study, name)
         done = [r for r in rows if r["status"] == outcomes.DONE]
         failed = [r for r in rows if r["status"] == outcomes.FAILED]
-        self.add(f"<h2>Strategy {name}</h2>",
-                 f"<p>Starts from the {study.strategies[name].start}. Of"
-                 f" {len(designs.read(study))} designs"
-                 f" {sum(r['origin'] != 'baseline' for r in done)} are done and"
-                 f" {len(failed)} failed.</p>")
+        self.add(
+            f"<h2>Strategy {name}</h2>",
+            f"<p>Starts from the {study.strategies[name].start}. Of"
+            f" {len(designs.read(study))} designs"
+            f" {sum(r['origin'] != 'baseline' for r in done)} are done and"
+            f" {len(failed)} failed.</p>",
+        )
         self.picture(plots.sampled, study, name)
         if failed:
-            self.add("<h3>Failed</h3>",
-                     table(failed, ["design", *study.names, "reason"]))
+            self.add(
+                "<h3>Failed</h3>",
+                table(failed, ["design", *study.names, "reason"]),
+            )
         if done:
             self.add("<h3>Responses</h3>")
             self.picture(plots.trends, study, done)
@@ -124,19 +153,26 @@ class Report:
     def models(self, name):
         path = self.study.folder / f"fit.{name}"
         if (path / "models.csv").exists():
-            self.add("<h3>Metamodels</h3>", table(readTable(
-                path / "models.csv")), "<p>Each design predicted by the model"
+            self.add(
+                "<h3>Metamodels</h3>",
+                table(read_table(path / "models.csv")),
+                "<p>Each design predicted by the model"
                 " without it; bars are two standard deviations.</p>",
-                image(path / "leaveOneOut.png"))
+                image(path / "leaveOneOut.png"),
+            )
 
     def optima(self, name, rows):
         path = self.study.folder / f"optimise.{name}"
         if not (path / "representatives.csv").exists():
             return
-        chosen = readTable(path / "representatives.csv")
-        self.add("<h3>Optima</h3>", image(path / "front.png"), "<p>The same"
-                 " front in the space of the parameters.</p>",
-                 image(path / "shapes.png"), table(chosen))
+        chosen = read_table(path / "representatives.csv")
+        self.add(
+            "<h3>Optima</h3>",
+            image(path / "front.png"),
+            "<p>The same" " front in the space of the parameters.</p>",
+            image(path / "shapes.png"),
+            table(chosen),
+        )
         numbers = {row["design"] for row in chosen}
         self.gallery(name, [r for r in rows if r["design"] in numbers])
 
@@ -144,28 +180,45 @@ class Report:
         for row in rows:
             path = self.study.folder / row["picture"]
             if row["picture"] and path.is_file():
-                self.add(f"<figure>{image(path)}<figcaption>{row['design']}: "
-                         + ", ".join(f"{n} {text(row[n])}" for n in [
-                             *self.study.names, *self.study.responses])
-                         + "</figcaption></figure>")
+                self.add(
+                    f"<figure>{image(path)}<figcaption>{row['design']}: "
+                    + ", ".join(
+                        f"{n} {text(row[n])}"
+                        for n in [*self.study.names, *self.study.responses]
+                    )
+                    + "</figcaption></figure>"
+                )
 
     def comparison(self):
         """Strategies on the designs that each of them has done."""
         study = self.study
-        tables = {name: {r["design"]: r for r in results.rows(
-            study, name, baseline=False) if r["status"] == outcomes.DONE
-            and r["origin"] == designs.SAMPLED} for name in study.strategies}
+        tables = {
+            name: {
+                r["design"]: r
+                for r in results.rows(study, name, baseline=False)
+                if r["status"] == outcomes.DONE
+                and r["origin"] == designs.SAMPLED
+            }
+            for name in study.strategies
+        }
         tables = {name: rows for name, rows in tables.items() if rows}
-        common = sorted(set.intersection(*map(set, tables.values()))) if (
-            tables) else []
+        common = (
+            sorted(set.intersection(*map(set, tables.values())))
+            if (tables)
+            else []
+        )
         if len(tables) < 2 or not common:
             return
-        tables = {name: [rows[d] for d in common]
-                  for name, rows in tables.items()}
-        self.add("<h2>Strategies compared</h2>",
-                 f"<p>On the {len(common)} designs that all have done: means,"
-                 " and the differences of responses from the first"
-                 " strategy.</p>", table(compare(study, tables)))
+        tables = {
+            name: [rows[d] for d in common] for name, rows in tables.items()
+        }
+        self.add(
+            "<h2>Strategies compared</h2>",
+            f"<p>On the {len(common)} designs that all have done: means,"
+            " and the differences of responses from the first"
+            " strategy.</p>",
+            table(compare(study, tables)),
+        )
         self.picture(plots.strategies, tables)
 
     def write(self):
@@ -174,7 +227,9 @@ class Report:
         path.write_text(
             '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             f"<title>{title}</title><style>{STYLE}</style></head><body>\n"
-            + "\n".join(self.parts) + "\n</body></html>\n")
+            + "\n".join(self.parts)
+            + "\n</body></html>\n"
+        )
         return path
 
 
@@ -185,24 +240,34 @@ def compare(study, tables):
     rows = []
     for name, found in tables.items():
         row = {"strategy": name}
-        row.update(means(found, lambda k: k in (
-            "iterations", "time", "cpuTime")))
+        row.update(
+            means(found, lambda k: k in ("iterations", "time", "cpuTime"))
+        )
         for response in study.responses:
-            off = [100*abs(a[response] - b[response])/abs(b[response])
-                   for a, b in zip(found, first) if b[response]]
+            off = [
+                100 * abs(a[response] - b[response]) / abs(b[response])
+                for a, b in zip(found, first)
+                if b[response]
+            ]
             if off:
                 row[f"{response}: mean difference %"] = statistics.mean(off)
                 row[f"{response}: largest %"] = max(off)
-        row.update(means(found, lambda k: k.startswith(
-            ("time.", "cpuTime.", "mesh."))))
+        row.update(
+            means(
+                found, lambda k: k.startswith(("time.", "cpuTime.", "mesh."))
+            )
+        )
         rows.append(row)
     return rows
 
 
 def means(rows, wanted):
     """Of the columns that are wanted, over the rows that have them."""
-    values = {k: [r[k] for r in rows if r.get(k) not in (None, "")]
-              for k in rows[0] if wanted(k)}
+    values = {
+        k: [r[k] for r in rows if r.get(k) not in (None, "")]
+        for k in rows[0]
+        if wanted(k)
+    }
     return {k: statistics.mean(v) for k, v in values.items() if v}
 
 

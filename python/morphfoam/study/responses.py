@@ -10,7 +10,7 @@ import subprocess
 
 import numpy as np
 
-from .caseFolder import isTime
+from .case_folder import is_time
 
 # [s]
 COMMAND_TIMEOUT = 600
@@ -28,7 +28,7 @@ def newest(case, pattern):
 
     def key(path):
         parts = path.relative_to(case).parts
-        return ([float(part) for part in parts if isTime(part)], str(path))
+        return ([float(part) for part in parts if is_time(part)], str(path))
 
     return max(paths, key=key)
 
@@ -37,8 +37,9 @@ def columns(path):
     """Names and rows of a table as OpenFOAM's function objects write it."""
     names, rows = [], []
     for line in path.read_text().splitlines():
-        words = line.replace("(", " ").replace(")", " ").replace(
-            ",", " ").split()
+        words = (
+            line.replace("(", " ").replace(")", " ").replace(",", " ").split()
+        )
         if line.startswith("#"):
             names = line[1:].split() if not rows else names
         elif words:
@@ -48,28 +49,32 @@ def columns(path):
     return names, rows
 
 
-def ofTable(path, response):
+def of_table(path, response):
     names, rows = columns(path)
     column = response.column
     if isinstance(column, str):
         if column not in names:
-            raise ResponseError(f"{path.name} has no column {column}; its"
-                                f" columns are {' '.join(names) or 'unnamed'}")
+            raise ResponseError(
+                f"{path.name} has no column {column}; its"
+                f" columns are {' '.join(names) or 'unnamed'}"
+            )
         column = names.index(column)
     try:
         table = [(float(row[0]), float(row[column])) for row in rows]
     except (IndexError, ValueError) as error:
-        raise ResponseError(f"{path.name}, column {response.column}: {error}"
-                            ) from None
+        raise ResponseError(
+            f"{path.name}, column {response.column}: {error}"
+        ) from None
     if response.window is None:
         return table[-1][1]
     end = table[-1][0]
     return float(np.mean([v for t, v in table if t > end - response.window]))
 
 
-def ofText(path, response):
-    found = re.findall(response.regex, path.read_text(errors="replace"),
-                       re.MULTILINE)
+def of_text(path, response):
+    found = re.findall(
+        response.regex, path.read_text(errors="replace"), re.MULTILINE
+    )
     if not found:
         raise ResponseError(f"{path.name} has nothing like {response.regex}")
     count = 1 if response.window is None else int(response.window)
@@ -79,19 +84,26 @@ def ofText(path, response):
         raise ResponseError(f"{path.name}: {error}") from None
 
 
-def ofCommand(command, case, environment):
+def of_command(command, case, environment):
     """The lines 'name value' that a command prints."""
     try:
         done = subprocess.run(
-            ["bash", "-c", command], cwd=case, text=True,
-            timeout=COMMAND_TIMEOUT, env=environment, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            ["bash", "-c", command],
+            cwd=case,
+            text=True,
+            timeout=COMMAND_TIMEOUT,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
     except subprocess.TimeoutExpired:
         raise ResponseError(f"'{command}' ran into the timeout") from None
     if done.returncode:
         last = done.stderr.strip().splitlines()[-1:] or ["nothing"]
-        raise ResponseError(f"'{command}' exits with {done.returncode} and"
-                            f" says: {last[0]}")
+        raise ResponseError(
+            f"'{command}' exits with {done.returncode} and" f" says: {last[0]}"
+        )
     values = {}
     for line in done.stdout.splitlines():
         words = line.split()
@@ -117,7 +129,7 @@ class Reader:
         values = {}
         for name, response in self.study.responses.items():
             try:
-                value = self._readOne(response)
+                value = self._read_one(response)
             except ResponseError as error:
                 raise ResponseError(f"response {name}: {error}") from None
             low, high = response.limits
@@ -126,7 +138,8 @@ class Reader:
             if not low <= value <= high:
                 raise ResponseError(
                     f"response {name} is {value:g}, outside its limits"
-                    f" [{low:g}, {high:g}]")
+                    f" [{low:g}, {high:g}]"
+                )
             self.known[name] = values[name] = value
         return values
 
@@ -135,24 +148,28 @@ class Reader:
         values = {}
         for name, note in self.study.notes.items():
             with contextlib.suppress(ResponseError, KeyError):
-                values[name] = self._readOne(note)
+                values[name] = self._read_one(note)
         return values
 
-    def _readOne(self, response):
+    def _read_one(self, response):
         if response.expression:
-            return float(response.expression(
-                self.known, self.study.baselineValues))
+            return float(
+                response.expression(self.known, self.study.baseline_values)
+            )
         if response.command:
             values = self._print(response.command)
             if response.name not in values:
-                raise ResponseError(f"'{response.command}' prints no line"
-                                    f" '{response.name} VALUE'")
+                raise ResponseError(
+                    f"'{response.command}' prints no line"
+                    f" '{response.name} VALUE'"
+                )
             return values[response.name]
         path = newest(self.case, response.file)
-        return (ofText if response.regex else ofTable)(path, response)
+        return (of_text if response.regex else of_table)(path, response)
 
     def _print(self, command):
         if command not in self.printed:
-            self.printed[command] = ofCommand(
-                command, self.case, self.environment)
+            self.printed[command] = of_command(
+                command, self.case, self.environment
+            )
         return self.printed[command]

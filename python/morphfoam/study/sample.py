@@ -8,15 +8,19 @@ from . import check, designs, sampling, sweep
 
 def sample(study):
     check.check(study, quiet=True)
-    with sweep.onlyOne(study):
+    with sweep.only_one(study):
         # Verifications of optima are no part of the sampling
-        table = [d for d in designs.read(study)
-                 if d.origin == designs.SAMPLED]
+        table = [d for d in designs.read(study) if d.origin == designs.SAMPLED]
         points = sampling.sample(study, designs.points(study, table))
         added = designs.add(study, points, designs.SAMPLED)
-    print(f"{len(added)} designs added to {len(table)}:"
-          f" {designs.path(study)}")
+    print(
+        f"{len(added)} designs added to {len(table)}:"
+        f" {designs.path(study)}"
+    )
     if len(added):
-        distance = sampling.smallestDistance(
-            study, designs.points(study, [*table, *added]))
-        print(f"smallest distance of two designs: {distance:.3g} of the bounds")
+        distance = sampling.smallest_distance(
+            study, designs.points(study, [*table, *added])
+        )
+        print(
+            f"smallest distance of two designs: {distance:.3g} of the bounds"
+        )

@@ -35,25 +35,32 @@ def sample(study, existing):
     return METHODS[study.sampling.method](study, existing)
 
 
-def feasibleProbes(study):
+def feasible_probes(study):
     """Feasible points, uniformly spread, and their share of the box."""
     random = np.random.default_rng(0)
     unit = random.random((PROBES, len(study.names)))
-    points = study.lows + unit*(study.highs - study.lows)
+    points = study.lows + unit * (study.highs - study.lows)
     points = points[study.feasible(points)]
     if not len(points):
         raise StudyError(
             f"constraints: none of {PROBES} random points between the bounds"
             " keeps to all of them, so there is nothing to sample. The"
-            " constraints: " + "; ".join(c.text for c in study.constraints)
-            + ". Widen bounds, or correct the constraint")
-    return points, len(points)/PROBES
+            " constraints: "
+            + "; ".join(c.text for c in study.constraints)
+            + ". Widen bounds, or correct the constraint"
+        )
+    return points, len(points) / PROBES
 
 
-def isNew(point, points, study):
+def is_new(point, points, study):
     """Whether a point is none of those there are."""
-    return not len(points) or np.abs(
-        (points - point)/(study.highs - study.lows)).max(axis=1).min() > 1e-9
+    return (
+        not len(points)
+        or np.abs((points - point) / (study.highs - study.lows))
+        .max(axis=1)
+        .min()
+        > 1e-9
+    )
 
 
 def missing(study, existing):
@@ -62,30 +69,41 @@ def missing(study, existing):
 
 def factorial(study, existing):
     """The grid, without what breaks a constraint."""
-    axes = [[(p.low + p.high)/2] if study.sampling.levels[p.name] == 1
-            else np.linspace(p.low, p.high, study.sampling.levels[p.name])
-            for p in study.parameters]
+    axes = [
+        [(p.low + p.high) / 2]
+        if study.sampling.levels[p.name] == 1
+        else np.linspace(p.low, p.high, study.sampling.levels[p.name])
+        for p in study.parameters
+    ]
     grid = np.array(list(itertools.product(*axes)))
     grid = grid[study.feasible(grid)]
     if not len(grid):
         raise StudyError(
             "sampling/levels: no point of the grid keeps to all constraints."
-            " Use more levels, or another method")
-    return np.array([p for p in grid if isNew(p, existing, study)]).reshape(
-        -1, len(study.names))
+            " Use more levels, or another method"
+        )
+    return np.array([p for p in grid if is_new(p, existing, study)]).reshape(
+        -1, len(study.names)
+    )
 
 
 def sobol(study, existing):
     """The scrambled sequence, in its order, without what is infeasible."""
-    feasibleProbes(study)
+    feasible_probes(study)
     sequence = qmc.Sobol(len(study.names), seed=study.sampling.seed)
     added, block = [], 64
     while len(added) < missing(study, existing):
-        points = study.lows + sequence.random(block)*(study.highs - study.lows)
-        added += [p for p in points[study.feasible(points)]
-                  if isNew(p, existing, study)]
-    return np.array(added[:missing(study, existing)]).reshape(
-        -1, len(study.names))
+        points = study.lows + sequence.random(block) * (
+            study.highs - study.lows
+        )
+        added += [
+            p
+            for p in points[study.feasible(points)]
+            if is_new(p, existing, study)
+        ]
+    return np.array(added[: missing(study, existing)]).reshape(
+        -1, len(study.names)
+    )
 
 
 class HyperCube:
@@ -98,51 +116,58 @@ class HyperCube:
     def __init__(self, study, existing, count, random, probes):
         self.study, self.random = study, random
         self.span = study.highs - study.lows
-        self.fixed = (existing - study.lows)/self.span
+        self.fixed = (existing - study.lows) / self.span
         self.total = len(existing) + count
-        probes = (probes - study.lows)/self.span
+        probes = (probes - study.lows) / self.span
         d = probes.shape[1]
         if study.constraints:
             shares = np.linspace(0, 1, self.total + 1)
             self.edges = np.quantile(probes, shares, axis=0)
         else:
             self.edges = np.repeat(
-                np.linspace(0, 1, self.total + 1)[:, None], d, axis=1)
+                np.linspace(0, 1, self.total + 1)[:, None], d, axis=1
+            )
         self.strata = np.stack(
-            [self._freeStrata(j, count) for j in range(d)], axis=1)
+            [self._free_strata(j, count) for j in range(d)], axis=1
+        )
         self.within = random.random((count, d))
         self.points = self.place(np.arange(count))
         self.feasible = self._feasible(self.points)
 
-    def _freeStrata(self, j, count):
+    def _free_strata(self, j, count):
         """Strata of parameter j that hold no existing design, in random
         order; where there are more than needed, evenly spread ones."""
-        taken = np.clip(np.searchsorted(
-            self.edges[:, j], self.fixed[:, j], side="right") - 1,
-            0, self.total - 1)
+        taken = np.clip(
+            np.searchsorted(self.edges[:, j], self.fixed[:, j], side="right")
+            - 1,
+            0,
+            self.total - 1,
+        )
         free = np.setdiff1d(np.arange(self.total), taken)
-        chosen = free[((np.arange(count) + 0.5)*len(free)/count).astype(int)]
+        chosen = free[
+            ((np.arange(count) + 0.5) * len(free) / count).astype(int)
+        ]
         return self.random.permutation(chosen)
 
     def place(self, rows):
         columns = np.arange(self.strata.shape[1])
         low = self.edges[self.strata[rows], columns]
         high = self.edges[self.strata[rows] + 1, columns]
-        return low + self.within[rows]*(high - low)
+        return low + self.within[rows] * (high - low)
 
     def _feasible(self, points):
-        return self.study.feasible(self.study.lows + points*self.span)
+        return self.study.feasible(self.study.lows + points * self.span)
 
     def _distances(self, rows):
         """phi_p's terms of these points with all others: d^-p."""
         others = np.vstack([self.points, self.fixed])
         d = np.linalg.norm(rows[:, None, :] - others[None], axis=2)
-        return np.where(d > 0, np.maximum(d, 1e-12), np.inf)**-P
+        return np.where(d > 0, np.maximum(d, 1e-12), np.inf) ** -P
 
     def _energy(self, rows):
         """The part of phi_p^p in which these points have a share."""
         d = self._distances(self.points[rows])
-        return d.sum() - d[:, rows].sum()/2
+        return d.sum() - d[:, rows].sum() / 2
 
     def exchange(self):
         """Let two points exchange the stratum of one parameter, or one move
@@ -171,39 +196,43 @@ class HyperCube:
     def _state(self):
         return self.strata, self.within, self.points, self.feasible
 
-    def replaceInfeasible(self, probes):
+    def replace_infeasible(self, probes):
         """Points for which no stratum was left that would do: the feasible
         ones farthest from all others."""
-        probes = (probes[:4096] - self.study.lows)/self.span
+        probes = (probes[:4096] - self.study.lows) / self.span
         for i in np.flatnonzero(~self.feasible):
             others = np.vstack([self.points[self.feasible], self.fixed])
             d = np.linalg.norm(probes[:, None] - others[None], axis=2)
-            self.points[i] = probes[d.min(axis=1).argmax()] if len(
-                others) else probes[0]
+            self.points[i] = (
+                probes[d.min(axis=1).argmax()] if len(others) else probes[0]
+            )
             self.feasible[i] = True
 
 
-def latinHypercube(study, existing):
+def latin_hypercube(study, existing):
     """One design in each stratum of each parameter, far from each other."""
     count = missing(study, existing)
     if count == 0:
         return np.empty((0, len(study.names)))
-    probes, _ = feasibleProbes(study)
+    probes, _ = feasible_probes(study)
     random = np.random.default_rng([study.sampling.seed, len(existing)])
     cube = HyperCube(study, existing, count, random, probes)
-    for _ in range(min(EXCHANGES, 100*cube.points.size)):
+    for _ in range(min(EXCHANGES, 100 * cube.points.size)):
         cube.exchange()
-    cube.replaceInfeasible(probes)
-    return study.lows + cube.points*cube.span
+    cube.replace_infeasible(probes)
+    return study.lows + cube.points * cube.span
 
 
-METHODS = {"factorial": factorial, "sobol": sobol,
-           "latinHypercube": latinHypercube}
+METHODS = {
+    "factorial": factorial,
+    "sobol": sobol,
+    "latinHypercube": latin_hypercube,
+}
 
 
-def smallestDistance(study, points):
+def smallest_distance(study, points):
     """Of any two designs, in units of the bounds."""
-    unit = (points - study.lows)/(study.highs - study.lows)
+    unit = (points - study.lows) / (study.highs - study.lows)
     d = np.linalg.norm(unit[:, None] - unit[None], axis=2)
     np.fill_diagonal(d, np.inf)
     return d.min()

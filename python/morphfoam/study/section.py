@@ -23,7 +23,8 @@ class UniqueKeys(yaml.SafeLoader):
             if key.value in seen:
                 raise StudyError(
                     f"line {key.start_mark.line + 1}: the key '{key.value}'"
-                    " stands twice. Keep one of them")
+                    " stands twice. Keep one of them"
+                )
             seen.add(key.value)
         return super().construct_mapping(node, deep)
 
@@ -47,12 +48,14 @@ class Section:
         if not isinstance(content, dict):
             raise StudyError(
                 f"{where or 'The study file'} must be a list of 'key: value'"
-                f" with the keys {' '.join(allowed)}; it is '{content}'")
+                f" with the keys {' '.join(allowed)}; it is '{content}'"
+            )
         unknown = [str(key) for key in content if key not in allowed]
         if unknown:
             raise StudyError(
                 f"{self.at(unknown[0])} is no key of a study file. Allowed"
-                f" {'in ' + where if where else 'here'}: {' '.join(allowed)}")
+                f" {'in ' + where if where else 'here'}: {' '.join(allowed)}"
+            )
         self.content = content
 
     def at(self, key):
@@ -65,8 +68,10 @@ class Section:
         if key in self:
             return self.content[key]
         if default is ...:
-            raise StudyError(f"{self.at(key)} is missing; README.md of"
-                             " morphStudy says what belongs there")
+            raise StudyError(
+                f"{self.at(key)} is missing; README.md of"
+                " morphStudy says what belongs there"
+            )
         return default
 
     def number(self, key, default=..., low=-math.inf, whole=False):
@@ -77,7 +82,8 @@ class Section:
         if whole and value != int(value) or value < low:
             raise StudyError(
                 f"{self.at(key)} is {value:g}; it must be a"
-                f"{' whole' if whole else ''} number of at least {low:g}")
+                f"{' whole' if whole else ''} number of at least {low:g}"
+            )
         return int(value) if whole else value
 
     def text(self, key, default=...):
@@ -93,12 +99,15 @@ class Section:
         try:
             found = re.compile(text).groups
         except re.error as error:
-            raise StudyError(f"{self.at(key)}: '{text}' is no regular"
-                             f" expression ({error})") from None
+            raise StudyError(
+                f"{self.at(key)}: '{text}' is no regular"
+                f" expression ({error})"
+            ) from None
         if groups is not None and found != groups:
             raise StudyError(
                 f"{self.at(key)}: '{text}' has {found} groups; put ( ) round"
-                " the number, and (?: ) where you only group")
+                " the number, and (?: ) where you only group"
+            )
         return text
 
     def items(self, key, default=...):
@@ -114,12 +123,14 @@ class Section:
         if not isinstance(content, dict) or not content:
             raise StudyError(
                 f"{self.at(key)} must be a list of 'name: ...' with at least"
-                f" one name; it is '{content}'")
+                f" one name; it is '{content}'"
+            )
         for name in content:
             if not isinstance(name, str) or not NAME.match(name):
                 raise StudyError(
                     f"{self.at(key)}: '{name}' is no name. Use letters, digits"
-                    " and _, a letter first")
+                    " and _, a letter first"
+                )
         return content
 
 
@@ -142,5 +153,6 @@ def interval(value, where):
     low, high = (number(v, where) for v in value)
     if not low < high:
         raise StudyError(
-            f"{where} is [{low:g}, {high:g}]: the first must be the smaller")
+            f"{where} is [{low:g}, {high:g}]: the first must be the smaller"
+        )
     return low, high

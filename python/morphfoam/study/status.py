@@ -10,23 +10,30 @@ from . import designs, outcomes, results, sweep
 
 def status(study, cores=None):
     table = designs.read(study)
-    atOnce = max(1, (cores or len(os.sched_getaffinity(0)))//study.cores)
+    at_once = max(1, (cores or len(os.sched_getaffinity(0))) // study.cores)
     print(f"{len(table)} designs in {study.folder}")
-    if study.baselineSteps is not None:
+    if study.baseline_steps is not None:
         outcome = outcomes.read(study, outcomes.BASELINE)
-        print("baseline: " + (
-            sweep.describe(outcome) if outcome else "not finished"))
+        print(
+            "baseline: "
+            + (sweep.describe(outcome) if outcome else "not finished")
+        )
     for strategy in study.strategies:
         found = [outcomes.read(study, strategy, d.number) for d in table]
         finished = [o for o in found if o]
-        failed = [o for o in finished if not outcomes.isDone(o)]
+        failed = [o for o in finished if not outcomes.is_done(o)]
         waiting = len(found) - len(finished)
-        line = (f"{strategy}: {len(finished) - len(failed)} done,"
-                f" {len(failed)} failed, {waiting} not finished")
+        line = (
+            f"{strategy}: {len(finished) - len(failed)} done,"
+            f" {len(failed)} failed, {waiting} not finished"
+        )
         if finished and waiting:
             times = [sum(o["wall"].values()) for o in finished]
-            line += "; some " + sweep.duration(sweep.timeLeft(
-                times, waiting, atOnce)) + f" on {atOnce*study.cores} cores"
+            line += (
+                "; some "
+                + sweep.duration(sweep.time_left(times, waiting, at_once))
+                + f" on {at_once*study.cores} cores"
+            )
         print(line)
         for outcome in failed:
             print(f"    {outcome['number']:04d}: {outcome['reason']}")

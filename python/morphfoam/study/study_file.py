@@ -22,6 +22,7 @@ TAKEN = {"baseline", "outcomes", "workflow", "template"}
 @dataclass
 class Target:
     """An entry of a dictionary of the case."""
+
     file: str
     entry: str
 
@@ -68,6 +69,7 @@ class Strategy:
 @dataclass
 class Response:
     """One source: file with column or regex, command, or expression."""
+
     name: str
     file: str | None = None
     column: str | int | None = None
@@ -80,54 +82,78 @@ class Response:
 
 @dataclass
 class Optimise:
-    objectives: dict = field(default_factory=dict)   # name: +1 maximise, -1
+    objectives: dict = field(default_factory=dict)  # name: +1 maximise, -1
     constraints: list = field(default_factory=list)
     population: int = 200
     generations: int = 200
     seed: int = 1
-    maxClusters: int = 8
+    max_clusters: int = 8
 
 
-def readTarget(section):
+def read_target(section):
     file, entry = section.text("file", None), section.text("entry", None)
     if (file is None) != (entry is None):
         raise StudyError(f"{section.where} needs file and entry together")
     return Target(file, entry) if file else None
 
 
-def readSteps(section, timeout):
+def read_steps(section, timeout):
     steps = []
     for name, value in section.names("steps").items():
         where = f"{section.at('steps')}/{name}"
         if isinstance(value, str):
             value = {"run": value}
         step = Section(value, where, ("run", "timeout", "expect"))
-        steps.append(Step(
-            name, step.text("run"), step.number("timeout", timeout, low=1e-3),
-            step.regex("expect", None)))
+        steps.append(
+            Step(
+                name,
+                step.text("run"),
+                step.number("timeout", timeout, low=1e-3),
+                step.regex("expect", None),
+            )
+        )
     return steps
 
 
-def readResponse(name, content, where, steps):
-    item = Section(content, where, (
-        "file", "column", "regex", "window", "command", "expression", "limits"))
+def read_response(name, content, where, steps):
+    item = Section(
+        content,
+        where,
+        (
+            "file",
+            "column",
+            "regex",
+            "window",
+            "command",
+            "expression",
+            "limits",
+        ),
+    )
     sources = [k for k in ("file", "command", "expression") if k in item]
     if len(sources) != 1:
-        raise StudyError(f"{where} needs one of file, command, expression;"
-                         f" it has {' and '.join(sources) or 'none'}")
+        raise StudyError(
+            f"{where} needs one of file, command, expression;"
+            f" it has {' and '.join(sources) or 'none'}"
+        )
     response = Response(
-        name, item.text("file", None), item.get("column", None),
+        name,
+        item.text("file", None),
+        item.get("column", None),
         item.regex("regex", None, groups=1),
         item.number("window", None, low=1e-300),
-        item.text("command", None))
+        item.text("command", None),
+    )
     if "limits" in item:
         response.limits = interval(item.get("limits"), item.at("limits"))
     if "expression" in item:
         response.expression = Expression(
-            item.get("expression"), item.at("expression"))
+            item.get("expression"), item.at("expression")
+        )
     if response.file and ("column" in item) == ("regex" in item):
-        raise StudyError(f"{where} has a file; it needs a column of its table,"
-                         " or a regex for its text, one of the two")
+        raise StudyError(
+            f"{where} has a file; it needs a column of its table,"
+            " or a regex for its text, one of the two"
+        )
     if not response.file and {"column", "regex", "window"} & set(item.content):
         raise StudyError(f"{where}: column, regex and window belong to a file")
     if response.file and response.file.startswith("log."):
@@ -135,17 +161,34 @@ def readResponse(name, content, where, steps):
             raise StudyError(
                 f"{where}/file: not every strategy has a step that writes"
                 f" {response.file}. Steps that they share:"
-                f" {' '.join(sorted(steps)) or 'none'}")
+                f" {' '.join(sorted(steps)) or 'none'}"
+            )
     return response
 
 
 class Study:
     """A study file that was found right, and what follows from it."""
 
-    KEYS = ("template", "exclude", "folder", "parametersFile", "parameters",
-            "derived", "constraints", "sampling", "cores", "baseline",
-            "strategies", "iterations", "responses", "notes", "failure",
-            "picture", "fit", "optimise")
+    KEYS = (
+        "template",
+        "exclude",
+        "folder",
+        "parametersFile",
+        "parameters",
+        "derived",
+        "constraints",
+        "sampling",
+        "cores",
+        "baseline",
+        "strategies",
+        "iterations",
+        "responses",
+        "notes",
+        "failure",
+        "picture",
+        "fit",
+        "optimise",
+    )
 
     def __init__(self, path, content=None):
         """content: the file whose words count, while paths are relative to
@@ -156,21 +199,23 @@ class Study:
 
         self.template = (self.root / file.text("template")).resolve()
         self.exclude = file.items("exclude", [])
-        self.folder = (self.root / file.text(
-            "folder", self.path.stem + ".study")).resolve()
-        self.parametersFile = file.text("parametersFile", None)
+        self.folder = (
+            self.root / file.text("folder", self.path.stem + ".study")
+        ).resolve()
+        self.parameters_file = file.text("parametersFile", None)
         self.cores = file.number("cores", 1, low=1, whole=True)
         self.picture = file.text("picture", None)
 
-        self._readParameters(file)
-        self._readDerived(file)
+        self._read_parameters(file)
+        self._read_derived(file)
         self.constraints = self._conditions(
-            file, "constraints", list(self.values(self.baseline)))
-        self._readSampling(file)
-        self._readStrategies(file)
-        self._readResponses(file)
-        self._readFit(file)
-        self._readOptimise(file)
+            file, "constraints", list(self.values(self.baseline))
+        )
+        self._read_sampling(file)
+        self._read_strategies(file)
+        self._read_responses(file)
+        self._read_fit(file)
+        self._read_optimise(file)
 
     @property
     def names(self):
@@ -188,61 +233,84 @@ class Study:
         """Parameters and derived quantities, by name; arrays as well."""
         values = dict(parameters)
         for item in self.derived:
-            values[item.name] = item.expression(values, self.baselineValues)
+            values[item.name] = item.expression(values, self.baseline_values)
         return values
 
     def feasible(self, points):
         """Which rows of points (one column per parameter) keep to all
         constraints."""
         values = self.values(dict(zip(self.names, np.asarray(points).T)))
-        missed = sum((np.asarray(c.violation(values, self.baselineValues))
-                      for c in self.constraints), np.zeros(len(points)))
+        missed = sum(
+            (
+                np.asarray(c.violation(values, self.baseline_values))
+                for c in self.constraints
+            ),
+            np.zeros(len(points)),
+        )
         return missed == 0
 
     def broken(self, parameters):
         """The constraints that one design breaks."""
         values = self.values(parameters)
-        return [c.text for c in self.constraints
-                if c.violation(values, self.baselineValues) > 0]
+        return [
+            c.text
+            for c in self.constraints
+            if c.violation(values, self.baseline_values) > 0
+        ]
 
     def targets(self):
-        return [(item.name, item.target)
-                for item in [*self.parameters, *self.derived] if item.target]
+        return [
+            (item.name, item.target)
+            for item in [*self.parameters, *self.derived]
+            if item.target
+        ]
 
-    def _newName(self, name, where):
+    def _new_name(self, name, where):
         if name in RESERVED:
-            raise StudyError(f"{where}: the name {name} has a meaning in"
-                             " expressions. Choose another")
+            raise StudyError(
+                f"{where}: the name {name} has a meaning in"
+                " expressions. Choose another"
+            )
         if name in self._seen:
-            raise StudyError(f"{where}: {name} stands there twice, as a"
-                             " parameter, derived quantity or response")
+            raise StudyError(
+                f"{where}: {name} stands there twice, as a"
+                " parameter, derived quantity or response"
+            )
         self._seen.add(name)
 
-    def _readParameters(self, file):
+    def _read_parameters(self, file):
         self.parameters, self._seen = [], set()
         for name, content in file.names("parameters").items():
-            item = Section(content, f"parameters/{name}",
-                           ("bounds", "baseline", "file", "entry"))
-            self._newName(name, item.where)
+            item = Section(
+                content,
+                f"parameters/{name}",
+                ("bounds", "baseline", "file", "entry"),
+            )
+            self._new_name(name, item.where)
             low, high = interval(item.get("bounds"), item.at("bounds"))
-            self.parameters.append(Parameter(
-                name, low, high, item.number("baseline"), readTarget(item)))
+            self.parameters.append(
+                Parameter(
+                    name, low, high, item.number("baseline"), read_target(item)
+                )
+            )
         self.baseline = {p.name: p.baseline for p in self.parameters}
 
-    def _readDerived(self, file):
-        self.derived, self.baselineValues = [], dict(self.baseline)
-        for name, content in (file.names("derived").items()
-                              if "derived" in file else ()):
+    def _read_derived(self, file):
+        self.derived, self.baseline_values = [], dict(self.baseline)
+        for name, content in (
+            file.names("derived").items() if "derived" in file else ()
+        ):
             where = f"derived/{name}"
-            self._newName(name, where)
+            self._new_name(name, where)
             if not isinstance(content, dict):
                 content = {"expression": content}
             item = Section(content, where, ("expression", "file", "entry"))
             expression = Expression(item.get("expression"), where)
-            expression.check(list(self.baselineValues))
-            self.derived.append(Derived(name, expression, readTarget(item)))
-            self.baselineValues[name] = expression(
-                self.baselineValues, self.baselineValues)
+            expression.check(list(self.baseline_values))
+            self.derived.append(Derived(name, expression, read_target(item)))
+            self.baseline_values[name] = expression(
+                self.baseline_values, self.baseline_values
+            )
 
     def _conditions(self, section, key, known):
         conditions = []
@@ -251,20 +319,31 @@ class Study:
             conditions[-1].check(known)
         return conditions
 
-    def _readSampling(self, file):
-        item = Section(file.get("sampling"), "sampling",
-                       ("method", "designs", "levels", "seed"))
+    def _read_sampling(self, file):
+        item = Section(
+            file.get("sampling"),
+            "sampling",
+            ("method", "designs", "levels", "seed"),
+        )
         method = item.text("method")
         if method not in METHODS:
-            raise StudyError(f"sampling/method is {method}; it must be one of"
-                             f" {' '.join(METHODS)}")
-        needs, refuses = (("levels", "designs") if method == "factorial"
-                          else ("designs", "levels"))
+            raise StudyError(
+                f"sampling/method is {method}; it must be one of"
+                f" {' '.join(METHODS)}"
+            )
+        needs, refuses = (
+            ("levels", "designs")
+            if method == "factorial"
+            else ("designs", "levels")
+        )
         if refuses in item:
-            raise StudyError(f"sampling/{refuses} says nothing to {method},"
-                             f" which takes {needs}")
+            raise StudyError(
+                f"sampling/{refuses} says nothing to {method},"
+                f" which takes {needs}"
+            )
         self.sampling = Sampling(
-            method, None, None, item.number("seed", 1, low=0, whole=True))
+            method, None, None, item.number("seed", 1, low=0, whole=True)
+        )
         if method != "factorial":
             self.sampling.designs = item.number("designs", low=1, whole=True)
             return
@@ -273,68 +352,84 @@ class Study:
             levels = dict.fromkeys(self.names, levels)
         levels = Section(levels, "sampling/levels", self.names)
         self.sampling.levels = {
-            name: levels.number(name, low=1, whole=True)
-            for name in self.names}
+            name: levels.number(name, low=1, whole=True) for name in self.names
+        }
 
-    def _readStrategies(self, file):
-        failure = Section(file.get("failure", {}), "failure",
-                          ("timeout", "retries"))
+    def _read_strategies(self, file):
+        failure = Section(
+            file.get("failure", {}), "failure", ("timeout", "retries")
+        )
         timeout = failure.number("timeout", None, low=1e-3)
         self.retries = failure.number("retries", 0, low=0, whole=True)
 
         self.strategies = {}
         for name, content in file.names("strategies").items():
             if name in TAKEN:
-                raise StudyError(f"strategies: {name} is a folder of the"
-                                 " study's own. Choose another name")
+                raise StudyError(
+                    f"strategies: {name} is a folder of the"
+                    " study's own. Choose another name"
+                )
             item = Section(content, f"strategies/{name}", ("start", "steps"))
             start = item.text("start", "baseline")
             if start not in STARTS:
-                raise StudyError(f"{item.at('start')} is {start}; it must be"
-                                 f" one of {' '.join(STARTS)}")
+                raise StudyError(
+                    f"{item.at('start')} is {start}; it must be"
+                    f" one of {' '.join(STARTS)}"
+                )
             self.strategies[name] = Strategy(
-                name, start, readSteps(item, timeout))
+                name, start, read_steps(item, timeout)
+            )
 
-        self.baselineSteps = None
+        self.baseline_steps = None
         if "baseline" in file or any(
-                s.start != "template" for s in self.strategies.values()):
+            s.start != "template" for s in self.strategies.values()
+        ):
             item = Section(file.get("baseline"), "baseline", ("steps",))
-            self.baselineSteps = readSteps(item, timeout)
-        self._readIterations(file)
+            self.baseline_steps = read_steps(item, timeout)
+        self._read_iterations(file)
 
-    def _readIterations(self, file):
-        item = Section(file.get("iterations", {}), "iterations",
-                       ("step", "regex"))
-        self.iterationStep = item.text("step", None)
-        self.iterationRegex = item.regex("regex", r"^Time = ")
+    def _read_iterations(self, file):
+        item = Section(
+            file.get("iterations", {}), "iterations", ("step", "regex")
+        )
+        self.iteration_step = item.text("step", None)
+        self.iteration_regex = item.regex("regex", r"^Time = ")
         for strategy in self.strategies.values():
             steps = [step.name for step in strategy.steps]
-            if self.iterationStep not in (None, *steps):
+            if self.iteration_step not in (None, *steps):
                 raise StudyError(
                     f"iterations/step: strategy {strategy.name} has no step"
-                    f" {self.iterationStep}, but {' '.join(steps)}")
+                    f" {self.iteration_step}, but {' '.join(steps)}"
+                )
 
-    def _readResponses(self, file):
-        steps = set.intersection(*({step.name for step in s.steps}
-                                   for s in self.strategies.values()))
+    def _read_responses(self, file):
+        steps = set.intersection(
+            *(
+                {step.name for step in s.steps}
+                for s in self.strategies.values()
+            )
+        )
         self.responses = {}
         for name, content in file.names("responses").items():
-            self._newName(name, "responses")
-            response = readResponse(
-                name, content, f"responses/{name}", steps)
+            self._new_name(name, "responses")
+            response = read_response(name, content, f"responses/{name}", steps)
             if response.expression:
                 response.expression.check(
-                    [*self.baselineValues, *self.responses])
+                    [*self.baseline_values, *self.responses]
+                )
             self.responses[name] = response
 
-        steps = {step.name for s in self.strategies.values() for step in s.steps}
+        steps = {
+            step.name for s in self.strategies.values() for step in s.steps
+        }
         self.notes = {}
-        for name, content in (file.names("notes").items()
-                              if "notes" in file else ()):
-            self._newName(name, "notes")
-            note = readResponse(name, content, f"notes/{name}", steps)
+        for name, content in (
+            file.names("notes").items() if "notes" in file else ()
+        ):
+            self._new_name(name, "notes")
+            note = read_response(name, content, f"notes/{name}", steps)
             if note.expression:
-                note.expression.check([*self.baselineValues, *self.responses])
+                note.expression.check([*self.baseline_values, *self.responses])
             self.notes[name] = note
 
     def _known(self, names, where):
@@ -342,44 +437,65 @@ class Study:
             if name not in self.responses:
                 raise StudyError(
                     f"{where}: there is no response {name}. The responses are"
-                    f" {' '.join(self.responses)}")
+                    f" {' '.join(self.responses)}"
+                )
 
-    def _readFit(self, file):
+    def _read_fit(self, file):
         item = Section(file.get("fit", {}), "fit", ("responses",))
         self.fitted = item.items("responses", [])
         self._known(self.fitted, "fit/responses")
 
-    def _readOptimise(self, file):
+    def _read_optimise(self, file):
         self.optimise = None
         if "optimise" in file:
-            item = Section(file.get("optimise"), "optimise", (
-                "objectives", "constraints", "population", "generations",
-                "seed", "maxClusters"))
+            item = Section(
+                file.get("optimise"),
+                "optimise",
+                (
+                    "objectives",
+                    "constraints",
+                    "population",
+                    "generations",
+                    "seed",
+                    "maxClusters",
+                ),
+            )
             objectives = item.names("objectives")
             self._known(objectives, "optimise/objectives")
             senses = {"maximise": 1, "minimise": -1}
             for name, sense in objectives.items():
                 if sense not in senses:
-                    raise StudyError(f"optimise/objectives/{name} is {sense};"
-                                     " it must be maximise or minimise")
+                    raise StudyError(
+                        f"optimise/objectives/{name} is {sense};"
+                        " it must be maximise or minimise"
+                    )
             self.optimise = Optimise(
                 {name: senses[sense] for name, sense in objectives.items()},
-                self._conditions(item, "constraints",
-                                 [*self.baselineValues, *self.responses]),
+                self._conditions(
+                    item,
+                    "constraints",
+                    [*self.baseline_values, *self.responses],
+                ),
                 item.number("population", 200, low=4, whole=True),
                 item.number("generations", 200, low=1, whole=True),
                 item.number("seed", 1, low=0, whole=True),
-                item.number("maxClusters", 8, low=1, whole=True))
+                item.number("maxClusters", 8, low=1, whole=True),
+            )
             if self.optimise.population % 4:
                 raise StudyError(
                     f"optimise/population is {self.optimise.population};"
-                    " NSGA-II pairs tournaments: use a multiple of 4")
+                    " NSGA-II pairs tournaments: use a multiple of 4"
+                )
         if not self.fitted:
             self.fitted = list(
-                self.optimise.objectives if self.optimise else self.responses)
+                self.optimise.objectives if self.optimise else self.responses
+            )
         if self.optimise:
             needed = set(self.optimise.objectives).union(
-                *(c.names & set(self.responses)
-                  for c in self.optimise.constraints))
+                *(
+                    c.names & set(self.responses)
+                    for c in self.optimise.constraints
+                )
+            )
             if not needed <= set(self.fitted):
                 self.fitted += sorted(needed - set(self.fitted))

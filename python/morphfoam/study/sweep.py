@@ -19,22 +19,33 @@ import time
 from pathlib import Path
 
 from . import (
-    caseFolder, check, designs, outcomes, process, responses, results, worker)
+    case_folder,
+    check,
+    designs,
+    outcomes,
+    process,
+    responses,
+    results,
+    worker,
+)
 from .errors import StudyError
 
-SCRIPTS = Path(__file__).resolve().parents[1]
+# Where the package is, for the workers
+HOME = Path(__file__).resolve().parents[2]
 
 
 @contextlib.contextmanager
-def onlyOne(study):
+def only_one(study):
     """Two sweeps at once would make each other's folders."""
     study.folder.mkdir(parents=True, exist_ok=True)
     with (study.folder / ".lock").open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            raise StudyError(f"another morphStudy is at work in {study.folder}."
-                             " Wait for it, or stop it first") from None
+            raise StudyError(
+                f"another morphStudy is at work in {study.folder}."
+                " Wait for it, or stop it first"
+            ) from None
         yield
 
 
@@ -42,19 +53,24 @@ def selected(study, only):
     """The designs to run."""
     all_ = designs.read(study)
     if not all_:
-        raise StudyError(f"there are no designs in {study.folder}. Choose them"
-                         f" first: morphStudy sample {study.path.name}")
+        raise StudyError(
+            f"there are no designs in {study.folder}. Choose them"
+            f" first: morphStudy sample {study.path.name}"
+        )
     for design in all_:
         broken = study.broken(design.parameters)
         if broken:
             raise StudyError(
                 f"design {design.id} breaks the constraint {broken[0]}: the"
                 " constraints have changed since it was sampled. Remove its row"
-                " of designs.csv with its outcomes, or use another folder")
+                " of designs.csv with its outcomes, or use another folder"
+            )
     unknown = set(only) - {d.number for d in all_}
     if unknown:
-        raise StudyError(f"there is no design {min(unknown)}; the designs are"
-                         f" 1 to {all_[-1].number}")
+        raise StudyError(
+            f"there is no design {min(unknown)}; the designs are"
+            f" 1 to {all_[-1].number}"
+        )
     return [d for d in all_ if not only or d.number in only]
 
 
@@ -62,12 +78,14 @@ def forget(study, strategy, chosen, redo):
     """Remove the outcomes of designs that are to be made again."""
     for design in chosen:
         outcome = outcomes.read(study, strategy, design.number)
-        if outcome and (design.number in redo or (
-                "failed" in redo and not outcomes.isDone(outcome))):
+        if outcome and (
+            design.number in redo
+            or ("failed" in redo and not outcomes.is_done(outcome))
+        ):
             outcomes.path(study, strategy, design.number).unlink()
 
 
-def keepUp(study, strategy, numbers):
+def keep_up(study, strategy, numbers):
     """Stop where finished designs were made in another way than the study file
     says now, or from another baseline; read responses again where only those
     have changed."""
@@ -83,33 +101,46 @@ def keepUp(study, strategy, numbers):
         if changed:
             raise StudyError(
                 f"{what} was made with another study file: "
-                + ", ".join(changed) + " differ. Use another folder, or remove"
-                f" {outcomes.path(study, name, number)} to have it made anew")
-        if number and outcome["baselineMade"] and (
-                not baseline or baseline["finished"] != outcome["baselineMade"]):
+                + ", ".join(changed)
+                + " differ. Use another folder, or remove"
+                f" {outcomes.path(study, name, number)} to have it made anew"
+            )
+        if (
+            number
+            and outcome["baselineMade"]
+            and (
+                not baseline or baseline["finished"] != outcome["baselineMade"]
+            )
+        ):
             raise StudyError(
                 f"{what} was made from a baseline that is no more there. Remove"
                 f" {outcomes.path(study, name, number).parent} to have all"
-                " designs made anew")
-        if outcome["responseTexts"] != outcomes.responseTexts(study):
-            readAgain(study, outcome)
-    noteTemplate(study, found)
+                " designs made anew"
+            )
+        if outcome["responseTexts"] != outcomes.response_texts(study):
+            read_again(study, outcome)
+    note_template(study, found)
 
 
-def noteTemplate(study, found):
+def note_template(study, found):
     """A template may be run in and written to: changes are no error."""
-    now = caseFolder.templateHash(study)
+    now = case_folder.template_hash(study)
     older = [o for o in found if o["templateHash"] not in (now, None)]
     if older:
-        names = ", ".join(f"{o['number']:04d}" if o["number"] else "baseline"
-                          for o in older[:5])
-        print(f"Note: {study.template} has changed since {len(older)} of the"
-              f" finished designs were made ({names}"
-              + (", ..." if len(older) > 5 else "")
-              + "). They stay as they are; -redo makes them again", flush=True)
+        names = ", ".join(
+            f"{o['number']:04d}" if o["number"] else "baseline"
+            for o in older[:5]
+        )
+        print(
+            f"Note: {study.template} has changed since {len(older)} of the"
+            f" finished designs were made ({names}"
+            + (", ..." if len(older) > 5 else "")
+            + "). They stay as they are; -redo makes them again",
+            flush=True,
+        )
 
 
-def readAgain(study, outcome):
+def read_again(study, outcome):
     if outcome["reason"] and not outcome["reason"].startswith("response"):
         return
     maker = worker.Worker(study, outcome["strategy"], outcome["number"] or 0)
@@ -120,7 +151,7 @@ def readAgain(study, outcome):
         outcome.update(status=outcomes.DONE, reason="")
     except responses.ResponseError as error:
         outcome.update(status=outcomes.FAILED, reason=str(error), responses={})
-    outcome["responseTexts"] = outcomes.responseTexts(study)
+    outcome["responseTexts"] = outcomes.response_texts(study)
     outcomes.write(study, outcome)
 
 
@@ -129,15 +160,30 @@ def plan(study, strategy, chosen, snapshot):
     jobs = {}
 
     def add(name, strategy_, number, after):
-        jobs[name] = {"after": [a for a in after if a in jobs], "command": " ".join(
-            map(shlex.quote, [
-                "env", f"PYTHONPATH={SCRIPTS}", sys.executable, "-m",
-                "morphStudy.worker", str(study.path), str(snapshot), strategy_,
-                str(number)]))}
+        jobs[name] = {
+            "after": [a for a in after if a in jobs],
+            "command": " ".join(
+                map(
+                    shlex.quote,
+                    [
+                        "env",
+                        f"PYTHONPATH={HOME}",
+                        sys.executable,
+                        "-m",
+                        "morphfoam.study.worker",
+                        str(study.path),
+                        str(snapshot),
+                        strategy_,
+                        str(number),
+                    ],
+                )
+            ),
+        }
 
     start = study.strategies[strategy].start
-    if start != "template" and not outcomes.isDone(
-            outcomes.read(study, outcomes.BASELINE)):
+    if start != "template" and not outcomes.is_done(
+        outcomes.read(study, outcomes.BASELINE)
+    ):
         add("baseline", outcomes.BASELINE, 0, [])
     table = designs.read(study)
     for design in chosen:
@@ -145,8 +191,10 @@ def plan(study, strategy, chosen, snapshot):
             continue
         after = ["baseline"]
         if start == "nearest":
-            after += [f"{n:04d}" for n in worker.nearer(
-                study, table, design.number)[:1]]
+            after += [
+                f"{n:04d}"
+                for n in worker.nearer(study, table, design.number)[:1]
+            ]
         add(design.id, strategy, design.number, after)
     return jobs
 
@@ -155,29 +203,38 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
     """Returns the exit status: 0 when every design has an outcome."""
     strategy = strategy or next(iter(study.strategies))
     if strategy not in study.strategies:
-        raise StudyError(f"there is no strategy {strategy}; the strategies are"
-                         f" {' '.join(study.strategies)}")
+        raise StudyError(
+            f"there is no strategy {strategy}; the strategies are"
+            f" {' '.join(study.strategies)}"
+        )
     check.check(study, quiet=True)
     cores = cores or len(os.sched_getaffinity(0))
     if not profile and study.cores > cores:
-        raise StudyError(f"a design takes {study.cores} cores (cores) and there"
-                         f" are {cores}. Give more (-cores), or let it take"
-                         " fewer")
+        raise StudyError(
+            f"a design takes {study.cores} cores (cores) and there"
+            f" are {cores}. Give more (-cores), or let it take"
+            " fewer"
+        )
     chosen = selected(study, only)
-    with onlyOne(study):
+    with only_one(study):
         forget(study, strategy, chosen, redo)
-        keepUp(study, strategy, [d.number for d in chosen])
+        keep_up(study, strategy, [d.number for d in chosen])
         workflow = study.folder / "workflow"
         shutil.rmtree(workflow, ignore_errors=True)
         workflow.mkdir()
         snapshot = workflow / "study.yaml"
         shutil.copy(study.path, snapshot)
         jobs = plan(study, strategy, chosen, snapshot)
-        (workflow / "plan.json").write_text(json.dumps(
-            {"cores": study.cores, "jobs": jobs}, indent=1))
+        (workflow / "plan.json").write_text(
+            json.dumps({"cores": study.cores, "jobs": jobs}, indent=1)
+        )
         if jobs:
-            progress = Progress(study, strategy, chosen, None if profile
-                                else max(1, cores//study.cores))
+            progress = Progress(
+                study,
+                strategy,
+                chosen,
+                None if profile else max(1, cores // study.cores),
+            )
             engine(study, workflow, cores, profile, progress)
         return results.conclude(study, strategy, chosen)
 
@@ -185,15 +242,28 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
 def engine(study, workflow, cores, profile, progress):
     """Run Snakemake and say what it gets done."""
     command = [
-        sys.executable, "-m", "snakemake",
-        "--snakefile", str(Path(__file__).with_name("Snakefile")),
-        "--directory", str(workflow), "--keep-going", "--nolock", "--nocolor",
-        "--config", f"plan={workflow/'plan.json'}"]
+        sys.executable,
+        "-m",
+        "snakemake",
+        "--snakefile",
+        str(Path(__file__).with_name("Snakefile")),
+        "--directory",
+        str(workflow),
+        "--keep-going",
+        "--nolock",
+        "--nocolor",
+        "--config",
+        f"plan={workflow/'plan.json'}",
+    ]
     command += ["--profile", profile] if profile else ["--cores", str(cores)]
     with (study.folder / "snakemake.log").open("w") as log:
         engine_ = subprocess.Popen(
-            command, stdout=log, stderr=subprocess.STDOUT,
-            stdin=subprocess.DEVNULL, preexec_fn=process.startedHere())
+            command,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            preexec_fn=process.started_here(),
+        )
         try:
             while engine_.poll() is None:
                 time.sleep(0.2)
@@ -209,8 +279,8 @@ def engine(study, workflow, cores, profile, progress):
 class Progress:
     """One line for each design that gets its outcome."""
 
-    def __init__(self, study, strategy, chosen, atOnce):
-        self.study, self.strategy, self.atOnce = study, strategy, atOnce
+    def __init__(self, study, strategy, chosen, at_once):
+        self.study, self.strategy, self.at_once = study, strategy, at_once
         self.waiting, self.start, self.before = [], time.monotonic(), 0
         self.total, self.times, self.finished = len(chosen), [], 0
         for design in chosen:
@@ -221,12 +291,16 @@ class Progress:
             else:
                 self.waiting.append(design.number)
         self.baseline = study.strategies[strategy].start != "template" and (
-            not outcomes.isDone(outcomes.read(study, outcomes.BASELINE)))
+            not outcomes.is_done(outcomes.read(study, outcomes.BASELINE))
+        )
         if self.baseline:
             outcomes.path(study, outcomes.BASELINE).unlink(missing_ok=True)
         self.before = self.finished
-        print(f"{strategy}: {self.finished} of {self.total} designs are"
-              " finished" + (f", {atOnce} at once" if atOnce else ""), flush=True)
+        print(
+            f"{strategy}: {self.finished} of {self.total} designs are"
+            " finished" + (f", {at_once} at once" if at_once else ""),
+            flush=True,
+        )
 
     def update(self):
         if self.baseline:
@@ -240,30 +314,38 @@ class Progress:
                 self.waiting.remove(number)
                 self.finished += 1
                 self.times.append(sum(outcome["wall"].values()))
-                print(f"[{self.finished}/{self.total}] {number:04d}: "
-                      f"{describe(outcome)}{self.left()}", flush=True)
+                print(
+                    f"[{self.finished}/{self.total}] {number:04d}: "
+                    f"{describe(outcome)}{self.left()}",
+                    flush=True,
+                )
 
     def left(self):
         if not self.waiting:
             return ""
-        if self.atOnce:
-            seconds = timeLeft(self.times, len(self.waiting), self.atOnce)
+        if self.at_once:
+            seconds = time_left(self.times, len(self.waiting), self.at_once)
         else:
             # A cluster runs as many at once as it likes
-            seconds = (time.monotonic() - self.start)*len(self.waiting)/(
-                self.finished - self.before)
+            seconds = (
+                (time.monotonic() - self.start)
+                * len(self.waiting)
+                / (self.finished - self.before)
+            )
         return f"; some {duration(seconds)} left"
 
 
-def timeLeft(times, count, atOnce):
+def time_left(times, count, at_once):
     """[s] for count designs, from what those before took."""
-    return sum(times)/len(times)*-(-count//atOnce)
+    return sum(times) / len(times) * -(-count // at_once)
 
 
 def duration(seconds):
     if seconds < 100:
         return f"{seconds:.0f} s"
-    return f"{seconds/60:.0f} min" if seconds < 6000 else f"{seconds/3600:.1f} h"
+    return (
+        f"{seconds/60:.0f} min" if seconds < 6000 else f"{seconds/3600:.1f} h"
+    )
 
 
 def describe(outcome):

@@ -4,7 +4,7 @@
 """One design, from an empty folder to its outcome. Started by the workflow
 engine:
 
-    python3 -m morphStudy.worker STUDYFILE SNAPSHOT STRATEGY NUMBER
+    python3 -m morphfoam.study.worker STUDYFILE SNAPSHOT STRATEGY NUMBER
 
 SNAPSHOT is the study file as it was when the sweep started; STRATEGY baseline
 with number 0 is the baseline. Exits with 0 once there is an outcome, be it a
@@ -20,10 +20,9 @@ import re
 import shutil
 import sys
 
-from . import caseFolder, designs, outcomes, process, responses
+from . import case_folder, designs, outcomes, process, responses
 from .errors import StudyError
-from .studyFile import Strategy, Study
-
+from .study_file import Strategy, Study
 
 
 class DesignFailed(Exception):
@@ -37,47 +36,58 @@ class Worker:
         self.study, self.number = study, number or None
         if strategy == outcomes.BASELINE:
             self.strategy = Strategy(
-                strategy, "template", study.baselineSteps)
+                strategy, "template", study.baseline_steps
+            )
             self.parameters = dict(study.baseline)
             self.designs = []
         else:
             self.strategy = study.strategies[strategy]
             self.designs = designs.read(study)
             self.parameters = next(
-                d.parameters for d in self.designs if d.number == number)
+                d.parameters for d in self.designs if d.number == number
+            )
         self.case = outcomes.case(study, strategy, self.number)
 
     def environment(self):
         return {
-            **os.environ, "PWD": str(self.case),
+            **os.environ,
+            "PWD": str(self.case),
             "MORPHSTUDY_TEMPLATE": str(self.study.template),
             "MORPHSTUDY_STUDY": str(self.study.root),
             "MORPHSTUDY_BASELINE": str(
-                outcomes.case(self.study, outcomes.BASELINE))}
+                outcomes.case(self.study, outcomes.BASELINE)
+            ),
+        }
 
     def reader(self):
         return responses.Reader(
-            self.study, self.case, self.parameters, self.environment())
+            self.study, self.case, self.parameters, self.environment()
+        )
 
     def work(self):
         """Make, run, read; again where it fails and retries are left."""
         for attempt in range(1, self.study.retries + 2):
             self.outcome = self.blank(attempt)
             try:
-                self.makeCase()
-                self.runSteps()
+                self.make_case()
+                self.run_steps()
                 self.outcome["responses"] = self.reader().responses()
                 status, reason = outcomes.DONE, ""
-            except (DesignFailed, StudyError, responses.ResponseError) as error:
+            except (
+                DesignFailed,
+                StudyError,
+                responses.ResponseError,
+            ) as error:
                 status, reason = outcomes.FAILED, str(error)
             self.outcome.update(status=status, reason=reason)
             if status == outcomes.DONE:
                 break
-        self.readWhatThereIs()
+        self.read_what_there_is()
         if status == outcomes.DONE:
-            self.takePicture()
+            self.take_picture()
         self.outcome["finished"] = datetime.datetime.now().isoformat(
-            timespec="seconds")
+            timespec="seconds"
+        )
         outcomes.write(self.study, self.outcome)
         return status
 
@@ -86,94 +96,121 @@ class Worker:
         study, values = self.study, self.study.values(self.parameters)
         return {
             **copy.deepcopy(outcomes.BLANK),
-            "strategy": self.strategy.name, "number": self.number,
+            "strategy": self.strategy.name,
+            "number": self.number,
             "parameters": self.parameters,
             "derived": {d.name: float(values[d.name]) for d in study.derived},
             "attempts": attempt,
-            "templateHash": caseFolder.templateHash(study),
-            "responseTexts": outcomes.responseTexts(study),
-            "made": outcomes.recipe(study, self.strategy.name)}
+            "templateHash": case_folder.template_hash(study),
+            "responseTexts": outcomes.response_texts(study),
+            "made": outcomes.recipe(study, self.strategy.name),
+        }
 
-    def makeCase(self):
+    def make_case(self):
         """The case folder, anew."""
         shutil.rmtree(self.case, ignore_errors=True)
         self.case.parent.mkdir(parents=True, exist_ok=True)
         if self.strategy.start == "template":
-            caseFolder.copyTemplate(self.study, self.case)
+            case_folder.copy_template(self.study, self.case)
         else:
-            caseFolder.copyCase(
-                outcomes.case(self.study, outcomes.BASELINE), self.case)
+            case_folder.copy_case(
+                outcomes.case(self.study, outcomes.BASELINE), self.case
+            )
             self.outcome["startedFrom"] = outcomes.BASELINE
             self.outcome["baselineMade"] = outcomes.read(
-                self.study, outcomes.BASELINE)["finished"]
+                self.study, outcomes.BASELINE
+            )["finished"]
             if self.strategy.start == "nearest":
-                self.takeNearestFields()
-        caseFolder.writeParameters(self.study, self.case, self.parameters)
+                self.take_nearest_fields()
+        case_folder.write_parameters(self.study, self.case, self.parameters)
 
-    def takeNearestFields(self):
+    def take_nearest_fields(self):
         """Of the nearest design with a smaller number that did not fail."""
         for number in nearer(self.study, self.designs, self.number):
-            if outcomes.isDone(outcomes.read(
-                    self.study, self.strategy.name, number)):
-                caseFolder.replaceFields(
+            if outcomes.is_done(
+                outcomes.read(self.study, self.strategy.name, number)
+            ):
+                case_folder.replace_fields(
                     outcomes.case(self.study, self.strategy.name, number),
-                    self.case)
+                    self.case,
+                )
                 self.outcome["startedFrom"] = f"{number:04d}"
                 return
 
-    def runSteps(self):
+    def run_steps(self):
         for step in self.strategy.steps:
             log = self.case / f"log.{step.name}"
             status, wall, cpu = process.run(
-                step.run, self.case, log, step.timeout, self.environment())
+                step.run, self.case, log, step.timeout, self.environment()
+            )
             self.outcome["wall"][step.name] = round(wall, 3)
             self.outcome["cpu"][step.name] = round(cpu, 3)
             if status is None:
                 raise DesignFailed(
-                    f"{step.name}: timeout after {step.timeout:g} s")
+                    f"{step.name}: timeout after {step.timeout:g} s"
+                )
             if status != 0:
-                raise DesignFailed(
-                    f"{step.name}: {why(log, status)}")
+                raise DesignFailed(f"{step.name}: {why(log, status)}")
             if step.expect and not re.search(
-                    step.expect, log.read_text(errors="replace"),
-                    re.MULTILINE):
-                raise DesignFailed(f"{step.name}: its log does not say"
-                                   f" '{step.expect}'")
+                step.expect, log.read_text(errors="replace"), re.MULTILINE
+            ):
+                raise DesignFailed(
+                    f"{step.name}: its log does not say" f" '{step.expect}'"
+                )
 
-    def readWhatThereIs(self):
+    def read_what_there_is(self):
         """Iterations, notes, the mesh: of a failed design as well."""
-        step = self.study.iterationStep or self.strategy.steps[-1].name
+        step = self.study.iteration_step or self.strategy.steps[-1].name
         log = self.case / f"log.{step}"
         if log.exists():
-            self.outcome["iterations"] = len(re.findall(
-                self.study.iterationRegex, log.read_text(errors="replace"),
-                re.MULTILINE))
+            self.outcome["iterations"] = len(
+                re.findall(
+                    self.study.iteration_regex,
+                    log.read_text(errors="replace"),
+                    re.MULTILINE,
+                )
+            )
         reader = self.reader()
         reader.known.update(self.outcome["responses"])
         self.outcome["notes"] = reader.notes()
         with contextlib.suppress(responses.ResponseError):
-            names, rows = responses.columns(responses.newest(
-                self.case, "postProcessing/**/morphMesh/*/quality.dat"))
+            names, rows = responses.columns(
+                responses.newest(
+                    self.case, "postProcessing/**/morphMesh/*/quality.dat"
+                )
+            )
             self.outcome["quality"] = {
-                name: float(word) for name, word in zip(names, rows[-1])
-                if re.match(r"[-+]?[.\d]", word)}
+                name: float(word)
+                for name, word in zip(names, rows[-1])
+                if re.match(r"[-+]?[.\d]", word)
+            }
         with contextlib.suppress(responses.ResponseError):
             text = responses.newest(
-                self.case, "postProcessing/**/morphMesh/*/motion").read_text()
+                self.case, "postProcessing/**/morphMesh/*/motion"
+            ).read_text()
             self.outcome["motion"] = {
-                name: float(value) for name, value in re.findall(
-                    r"^(attainable|moved)\s+(\S+);", text, re.MULTILINE)}
+                name: float(value)
+                for name, value in re.findall(
+                    r"^(attainable|moved)\s+(\S+);", text, re.MULTILINE
+                )
+            }
 
-    def takePicture(self):
+    def take_picture(self):
         if not self.study.picture:
             return
         process.run(
-            self.study.picture, self.case, self.case / "log.picture", 600,
-            self.environment())
+            self.study.picture,
+            self.case,
+            self.case / "log.picture",
+            600,
+            self.environment(),
+        )
         file = self.case / "picture.png"
         self.outcome["picture"] = (
-            str(file.relative_to(self.study.folder)) if file.exists()
-            else f"none: see {file.parent.name}/log.picture")
+            str(file.relative_to(self.study.folder))
+            if file.exists()
+            else f"none: see {file.parent.name}/log.picture"
+        )
 
 
 def nearer(study, designs_, number):
@@ -183,13 +220,15 @@ def nearer(study, designs_, number):
     span = study.highs - study.lows
 
     def distance(a, b):
-        return sum(((a[n] - b[n])/s)**2 for n, s in zip(study.names, span))
+        return sum(((a[n] - b[n]) / s) ** 2 for n, s in zip(study.names, span))
 
     own = next(d.parameters for d in designs_ if d.number == number)
     limit = distance(own, study.baseline)
     found = sorted(
         (distance(own, d.parameters), d.number)
-        for d in designs_ if d.number < number)
+        for d in designs_
+        if d.number < number
+    )
     return [n for far, n in found if far < limit]
 
 
@@ -199,15 +238,18 @@ def why(log, status):
     invalid = re.search(
         r"(The motion makes the mesh|The moved mesh would be) invalid:.*?"
         r"(?=\n\s*(Of these|Nothing|The mesh is left|\n)|\Z)",
-        text, re.DOTALL)
+        text,
+        re.DOTALL,
+    )
     if invalid:
         return " ".join(invalid.group().split())[:300]
     if "--> FOAM FATAL" in text:
-        return caseFolder.firstError(text)[:300]
+        return case_folder.first_error(text)[:300]
     if "sigFpe" in text or "Floating point exception" in text:
         times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
-        return ("diverged, floating point exception"
-                + (f" at time {times[-1]}" if times else ""))
+        return "diverged, floating point exception" + (
+            f" at time {times[-1]}" if times else ""
+        )
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     said = f" ({lines[-1][:200]})" if lines else ""
     if status < 0:
@@ -215,17 +257,18 @@ def why(log, status):
     return f"exit status {status}{said}"
 
 
-def isEngine(pid):
+def is_engine(pid):
     """Whether a process is Snakemake, which starts the workers."""
     with contextlib.suppress(OSError), open(
-            f"/proc/{pid}/cmdline", "rb") as file:
+        f"/proc/{pid}/cmdline", "rb"
+    ) as file:
         return b"snakemake" in file.read()
     return False
 
 
 def main(arguments):
     path, snapshot, strategy, number = arguments
-    process.dieWithParent(isEngine)
+    process.die_with_parent(is_engine)
     study = Study(path, snapshot)
     number = int(number)
     lock = study.folder / "outcomes" / f".lock.{strategy}.{number}"

@@ -8,8 +8,15 @@ colours."""
 
 from paraview import catalyst
 from paraview.simple import (
-    ColorBy, CreateExtractor, CreateRenderView, GetColorTransferFunction,
-    GetScalarBar, Show, Transform, TrivialProducer)
+    ColorBy,
+    CreateExtractor,
+    CreateRenderView,
+    GetColorTransferFunction,
+    GetScalarBar,
+    Show,
+    Transform,
+    TrivialProducer,
+)
 
 options = catalyst.Options()
 options.ExtractsOutputDirectory = "."
