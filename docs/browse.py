@@ -32,7 +32,8 @@ INSPECT = r"""
 (() => {
 // Is an element, or what it is in, one that scrolls by itself or is for readers
 // aloud?
-const scrolls = e => e && (e.className == "katex-mathml" || /auto|scroll/.test(getComputedStyle(e).overflowX)
+const scrolls = e => e && (e.className == "katex-mathml"
+  || /auto|scroll/.test(getComputedStyle(e).overflowX)
   && e.tagName != "BODY" && e.tagName != "HTML" || scrolls(e.parentElement));
 return ({
   title: document.title,

@@ -10,7 +10,6 @@ import importlib
 import pathlib
 import shutil
 import subprocess
-import sys
 
 import pytest
 
@@ -29,9 +28,7 @@ needs_browser = pytest.mark.skipif(
 
 @pytest.fixture(scope="module")
 def browse():
-    sys.path.append(str(ROOT/"docs"))
-    yield importlib.import_module("browse")
-    sys.path.remove(str(ROOT/"docs"))
+    return importlib.import_module("browse")
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +63,8 @@ def test_a_browser_finds_nothing_wrong(site, browse):
 
 
 PAGE = """<!DOCTYPE html><html><head><title>t</title>
-<meta name="viewport" content="width=device-width"></head><body><article>{}""" + "word "*30 + "</article></body></html>"
+<meta name="viewport" content="width=device-width"></head><body><article>{}""" + (
+    "word "*30 + "</article></body></html>")
 
 
 @needs_browser

@@ -3,7 +3,7 @@
 
 """Pictures side by side, as frames of a film.
 
-    filmStrip([first.png, second.png, ...], strip.png, columns=4)
+    film_strip([first.png, second.png, ...], strip.png, columns=4)
 
 Needs numpy and matplotlib. Pictures of one column have to be as wide as those
 of the others, and of one row as high.
