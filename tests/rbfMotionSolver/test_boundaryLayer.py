@@ -13,7 +13,7 @@ import re
 import numpy as np
 import pytest
 
-from boundaryLayer import pitched
+from boundaryLayer import AROUND, CHORD, THICKNESS, pitched
 
 TOLERANCE = "greedy { tolerance %s; }"
 
@@ -26,6 +26,21 @@ def quality(output, row):
     """Cells, volume, non-orthogonality, ... of a row that morphMesh prints."""
     return [float(word) for word in
             re.search(rf"^{row}\s+(.*)$", output, re.MULTILINE)[1].split()]
+
+
+def assert_first_cells_turn(before, after):
+    """What is within some 1e-6 of the wall turns with it, by 20 degrees.
+
+    Without correction these points are off by 1e-4, the error of the selection.
+    """
+    near = np.hypot(before[:, 0]/(0.5*CHORD),
+                    before[:, 1]/(0.5*THICKNESS)) < 1 + 3e-5
+    assert near.sum() > 3*4*AROUND
+    a = np.radians(20)
+    turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0],
+                     [0, 0, 1]])
+    np.testing.assert_allclose(after[near], before[near] @ turn.T, rtol=0,
+                               atol=1e-6)
 
 
 def test_an_error_above_the_first_cells_is_announced_with_its_remedy(tmp_path):
@@ -59,6 +74,8 @@ def test_surface_correction_is_the_same_on_any_number_of_ranks(tmp_path):
     serial = pitched(tmp_path/"1", coeffs)
     morph(serial)
     expected = serial.points("1/polyMesh/points")
+    assert_first_cells_turn(serial.points("constant/polyMesh/points"),
+                            expected)
     for parts in ((2, 1, 1), (2, 2, 1)):
         case = pitched(tmp_path/f"{np.prod(parts)}", coeffs)
         case.decompose(parts)

@@ -68,14 +68,30 @@ def test_interior_points_differ_from_those_of_all_points_by_the_tolerance(
     assert 0 < np.abs(difference).max() < 10*1e-3*largest
 
 
-@pytest.mark.parametrize("per_sweep", ["auto", "1", "20"])
-def test_points_per_sweep_change_the_cost_not_the_tolerance(tmp_path,
-                                                            per_sweep):
-    case, largest = wavy(tmp_path, "greedy { tolerance 1e-2;"
-                         f" pointsPerSweep {per_sweep}; algorithm incremental;"
-                         " }")
-    (_, _, error, allowed), = selections(case.run("moveDynamicMesh"))
-    assert error <= allowed
+def with_debug(case):
+    """The case with what the solver says at debug 1."""
+    with open(case.path/"system/controlDict", "a") as control:
+        # Switches are set for the libraries that are loaded by then
+        control.write("libs (morphMotionSolvers);\n"
+                      "DebugSwitches { rbfMotionSolver 1; }\n")
+    return case
+
+
+def test_points_per_sweep_change_the_cost_not_the_tolerance(tmp_path):
+    sweeps, selected = {}, {}
+    for per_sweep in ("auto", "1", "20"):
+        case, _ = wavy(tmp_path/per_sweep, "greedy { tolerance 1e-2;"
+                       f" pointsPerSweep {per_sweep}; algorithm incremental;"
+                       " }")
+        output = with_debug(case).run("moveDynamicMesh")
+        (selected[per_sweep], _, error, allowed), = selections(output)
+        assert error <= allowed
+        sweeps[per_sweep] = int(re.search(r"(\d+) sweeps", output)[1])
+    # One for each point and one that finds no more to add; at most twenty
+    # points in one
+    assert sweeps["1"] == selected["1"] + 1
+    assert selected["20"]/20 <= sweeps["20"] < sweeps["1"]/5
+    assert sweeps["auto"] < sweeps["1"]/2
 
 
 def test_the_log_has_one_line_for_each_selection(tmp_path):
@@ -89,11 +105,7 @@ def test_the_log_has_one_line_for_each_selection(tmp_path):
 
 def test_debug_adds_the_times_of_every_step(tmp_path):
     case, _ = wavy(tmp_path, "", control={"end": 3})
-    with open(case.path/"system/controlDict", "a") as control:
-        # Switches are set for the libraries that are loaded by then
-        control.write("libs (morphMotionSolvers);\n"
-                      "DebugSwitches { rbfMotionSolver 1; }\n")
-    output = case.run("moveDynamicMesh")
+    output = with_debug(case).run("moveDynamicMesh")
     phases = r"^rbfMotionSolver: conditions \S+ s, .*propagation \S+ s"
     assert len(re.findall(phases, output, re.MULTILINE)) == 3
 

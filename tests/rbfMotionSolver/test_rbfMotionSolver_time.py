@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from boxCase import words, write_control
+from conditions import CONDITIONS, SLIPPING
 from rbfCase import groups, rbf_case, reference, selections, side
-from test_rbfMotionSolver_conditions import CONDITIONS, SLIPPING
 
 
 def read_binary(path, kind=float, components=3):
@@ -131,9 +131,17 @@ def test_ascii_files_restart_to_their_digits(tmp_path):
     for name, stops in (("whole", [2]), ("parts", [1, 2])):
         case = turning_case(tmp_path/name)
         for stop in stops:
-            advance(case, stop, format="ascii", digits=6)
+            output = advance(case, stop, format="ascii", digits=6)
+        assert ("Time = 1\n" in output) == (name == "whole")
         results.append(case.points("2/polyMesh/points"))
     np.testing.assert_array_equal(*results)
+    # As far as in binary files, to the digits
+    moved = results[0] - reference(case)
+    exact = turning_case(tmp_path/"exact")
+    advance(exact, 2)
+    np.testing.assert_allclose(moved, points_at(exact, 2) - reference(exact),
+                               rtol=0, atol=1e-5)
+    assert np.abs(moved).max() > 0.2
 
 
 def test_any_number_of_ranks_may_continue(tmp_path):

@@ -52,6 +52,11 @@ def off_faces(points, radius=1, sectors=4*CELLS[0]):
                   - radius*np.cos(sector/2)).max()
 
 
+def between_ends(points):
+    """The points of the casing without its rims."""
+    return on_casing(points) & (0.01 < points[:, 2]) & (points[:, 2] < 0.99)
+
+
 def off_ends(before, after):
     ends = on_casing(before) & ((before[:, 2] < 1e-9) | (before[:, 2] > 1 - 1e-9))
     return np.abs((after - before)[ends, 2]).max()
@@ -164,7 +169,7 @@ def test_a_long_way_around(tmp_path):
     assert "Warning" not in output
     after = points_at(case, "1")
     # (The ends go where they are told to)
-    casing = on_casing(before) & (0.01 < before[:, 2]) & (before[:, 2] < 0.99)
+    casing = between_ends(before)
     assert np.linalg.norm((after - before)[casing], axis=1).max() > 0.8
     assert off_faces(after[casing], 1, 32) < 1e-12
     assert "Mesh OK" in output
@@ -179,6 +184,15 @@ def turning(omega, extra=""):
         casing="type sliding; patches (casing);")
 
 
+def around(before, after):
+    """The angles by which the points of the casing go around its axis."""
+    casing = between_ends(before)
+    start, end = np.unwrap(np.stack(
+        [np.arctan2(x[casing, 1], x[casing, 0]) for x in (before, after)]),
+                           axis=0)
+    return end - start
+
+
 @pytest.mark.parametrize("n", [4, 8])
 def test_sub_steps_go_on_around_the_surface(tmp_path, n):
     # Ends and hub turn by 86 degrees: the casing follows, as far as it is
@@ -189,13 +203,11 @@ def test_sub_steps_go_on_around_the_surface(tmp_path, n):
     output = case.run("moveDynamicMesh")
     assert f"moved in {n} sub-steps" in output and "Mesh OK" in output
     after = points_at(case, "1")
-    casing = on_casing(before) & (0.01 < before[:, 2]) & (before[:, 2] < 0.99)
+    casing = between_ends(before)
     assert off_faces(after[casing]) < 1e-12
-    start, end = np.unwrap(np.stack(
-        [np.arctan2(x[casing, 1], x[casing, 0]) for x in (before, after)]),
-                           axis=0)
     # Further than 60 degrees, which is as far as one direction reaches
-    assert (end - start).min() > 1.3 and (end - start).max() < 1.5
+    angle = around(before, after)
+    assert angle.min() > 1.3 and angle.max() < 1.5
 
 
 def test_sub_steps_around_the_surface_are_the_same_on_three_ranks(tmp_path):
@@ -203,11 +215,15 @@ def test_sub_steps_around_the_surface_are_the_same_on_three_ranks(tmp_path):
     for ranks in (1, 3):
         case = annulus(tmp_path/str(ranks), turning(1.5, "subSteps 4;"),
                        cells=(CELLS[0], 4, 5))
+        before = reference(case)
         if ranks > 1:
             case.decompose_cells(np.random.default_rng(ranks).integers(
                 0, ranks, 4*CELLS[0]*4*5))
-        results.append(move(case, ranks=ranks))
+        output = case.run("moveDynamicMesh", ranks=ranks)
+        assert "moved in 4 sub-steps" in output
+        results.append(points_at(case, "1"))
     assert np.array_equal(*results)
+    assert around(before, results[0]).min() > 1.3
 
 
 def test_there_and_back_does_not_drift(tmp_path):
