@@ -111,11 +111,15 @@ def test_file_is_matched_by_position_not_by_order(tmp_path, ranks):
     check(move(case, ranks=ranks), before, top, values)
 
 
-def test_pointDisplacement_is_what_a_moving_group_takes_by_default(tmp_path):
+@pytest.mark.parametrize("entry", [
+    "", "displacement { type pointDisplacement; }"])
+def test_pointDisplacement_is_what_a_moving_group_takes_by_default(tmp_path,
+                                                                   entry):
     case = rbf_case(
         tmp_path, {**{name: "zeroGradient" for name in CUBE},
                    "zMax": fixed(0, 0.02, 0.1)},
-        coeffs=groups(top="type moving; patches (zMax);", bottom=BOTTOM))
+        coeffs=groups(top=f"type moving; patches (zMax); {entry}",
+                      bottom=BOTTOM))
     before = reference(case)
     check(move(case), before, side(before, "zMax"), (0, 0.02, 0.1))
 

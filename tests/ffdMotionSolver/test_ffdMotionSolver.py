@@ -67,7 +67,7 @@ def test_parameters_of_zero_leave_the_mesh_as_it_is_to_the_bit(tmp_path, extra):
                           " angle 20; }"),
         cells=CELLS)
     before = reference(case)
-    np.testing.assert_array_equal(move(case), before)
+    np.testing.assert_array_equal(move(case, rests=True), before)
 
 
 def test_a_rotated_box_is_the_mesh_rotated_and_rotated_back(tmp_path):
@@ -441,6 +441,40 @@ def test_a_motion_that_makes_the_mesh_invalid_is_limited_on_request(tmp_path):
     assert (d[~moved] == 0).all()
     # Cells of 0.25 may lose all but a margin of a tenth of the valid part
     np.testing.assert_allclose(d[moved, 0], -0.25*0.9, rtol=1e-2)
+
+
+@pytest.mark.parametrize("continuity, layers", [("C0", 1), ("C1", 2),
+                                                ("C2", 3)])
+def test_continuity_is_that_of_the_first_layer_that_may_move(
+        tmp_path, continuity, layers):
+    # Half of the mesh is in the box. Control points of layer i move the mesh
+    # at a distance h from its face by C(n, i) h^i (1 - h)^(n - i): all
+    # derivatives below the i-th vanish there
+    n, place = 5, dict(origin=(0.5, -0.1, -0.1), span=(1, 1.2, 1.2))
+
+    def case(name, layer):
+        moves = [((layer, 1, 1), (0.05, 0.1, 0.05))]
+        return ffd_case(
+            tmp_path/name,
+            ffd_box("body", parameter("a", moves, "1"), order=(n, 2, 2),
+                    extra=f"continuity {continuity};", **place),
+            cells=(32, 2, 2)), moves
+
+    within, moves = case("within", layers)
+    before = reference(within)
+    after = move(within)
+    np.testing.assert_allclose(
+        after, before + displaced(before, moves, (n, 2, 2), **place), rtol=0,
+        atol=ROUND_OFF)
+    line = np.isclose(before[:, 1], 0.5) & np.isclose(before[:, 2], 0.5)
+    d = (after - before)[line][np.argsort(before[line, 0])][:, 1]
+    assert (d[:17] == 0).all()
+    order = np.log2(d[18]/d[17])
+    assert layers - 0.3 < order < layers
+
+    refused, _ = case("refused", layers - 1)
+    output = refused.run("moveDynamicMesh", status=1)
+    assert f"({layers - 1} 1 1)" in output and "frozen layer" in output
 
 
 def test_cut_patches_are_named_where_continuity_is_none(tmp_path):

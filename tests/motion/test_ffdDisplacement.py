@@ -52,6 +52,30 @@ def test_the_surface_moves_by_the_formula_and_the_volume_follows(tmp_path,
     assert below.sum() == 1 and (after - before)[below, 2] > 0.005
 
 
+@pytest.mark.parametrize("how", ["", "combine chain;", "combine sum;"])
+def test_boxes_are_combined_as_asked_for(tmp_path, how):
+    # The second box moves where the first one has gone, or from the start
+    first = [((1, 1, 1), (0.5, 0, 0.2))]
+    second = [((1, 1, 1), (0, 0.6, 0.2))]
+    place = dict(origin=(-0.1, -0.1, 0.5), span=(1.2, 1.2, 1.1))
+    order = (2, 2, 2)
+    case = rbf_case(tmp_path, coeffs="supportRadius 2;\n" + groups(
+        lid="type moving; patches (zMax); displacement { type ffd; boxes {"
+            + ffd_box("one", parameter("a", first, "0.5"), order, **place)
+            + ffd_box("two", parameter("b", second, "0.5"), order, **place)
+            + f"}} {how} }}",
+        bottom="type fixed; patches (zMin);"))
+    before = reference(case)
+    on = side(before, "zMax")
+    middle = before + 0.5*displaced(before, first, order, **place)
+    chain, add = (middle + 0.5*displaced(start, second, order, **place)
+                  for start in (middle, before))
+    assert np.abs(chain - add)[on].max() > 0.001
+    np.testing.assert_allclose(
+        move(case)[on], (add if "sum" in how else chain)[on], rtol=0,
+        atol=1e-14)
+
+
 def test_a_group_that_a_face_cuts_freezes_layers_there(tmp_path):
     # The side is cut at p = 0: three layers have to be at rest
     case = rbf_case(tmp_path, coeffs="supportRadius 2;\n" + groups(

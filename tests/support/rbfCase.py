@@ -52,10 +52,15 @@ def reference(case):
     return case.points("constant/polyMesh/points")
 
 
-def move(case, time="1", **run):
-    """The points after moveDynamicMesh, which ends at this time."""
+def move(case, time="1", rests=False, **run):
+    """The points after moveDynamicMesh, which ends at this time.
+
+    Fails where nothing has moved, unless that is what should happen.
+    """
     case.run("moveDynamicMesh", **run)
-    return points_at(case, time)
+    points = points_at(case, time)
+    assert np.array_equal(points, reference(case)) == rests
+    return points
 
 
 def points_at(case, time):

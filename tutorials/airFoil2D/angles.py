@@ -3,7 +3,7 @@
 
 """The largest angle by which each motion solver can pitch the aerofoil.
 
-    angles.py [-rbfOnly] [-largest DEGREES] [-smallSteps]
+    angles.py [-motions NAME ...] [-largest DEGREES] [-smallSteps]
 
 One step: the motion solver is applied once to the undeformed mesh, by
 morphMesh, for 1, 2, ... degrees until a mesh is invalid: a wrongly oriented
@@ -25,7 +25,13 @@ from morphfoam.output.tables import read_columns, write_table
 
 here = Path(__file__).resolve().parent
 
-laplacians = ["laplacianUniform", "laplacianInverse", "laplacianQuadratic"]
+motions = [
+    "laplacianUniform",
+    "laplacianInverse",
+    "laplacianQuadratic",
+    "SBRStress",
+    "rbf",
+]
 invalid = re.compile(r"incorrectly oriented|negative cell volume")
 
 
@@ -129,13 +135,17 @@ def row(motion, linear_solver, steps, valid, first_invalid, quality=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("-rbfOnly", dest="rbf_only", action="store_true")
+    parser.add_argument(
+        "-motions", nargs="+", default=motions, choices=motions
+    )
     parser.add_argument("-largest", type=int, default=90)
     parser.add_argument("-smallSteps", dest="small_steps", action="store_true")
     options = parser.parse_args()
 
     rows = []
-    for motion in [] if options.rbf_only else laplacians + ["SBRStress"]:
+    for motion in options.motions:
+        if motion == "rbf":
+            continue
         for linear_solver in ("usual", "converged"):
             rows.append(
                 in_one_step(
@@ -145,9 +155,10 @@ def main():
             rows.append(in_many_steps(motion, linear_solver, 1))
         if options.small_steps:
             rows.append(in_many_steps(motion, "converged", 0.1))
-    rows.append(
-        in_one_step("rbf", "usual", range(10, options.largest + 1, 10))
-    )
+    if "rbf" in options.motions:
+        rows.append(
+            in_one_step("rbf", "usual", range(10, options.largest + 1, 10))
+        )
     write_table(rows, here / "results/angles")
 
 
