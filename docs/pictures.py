@@ -19,7 +19,7 @@ GREATEST = 150_000      # bytes
 
 # Where a tutorial's pictures do not come from its Allrun alone
 COMMANDS = {
-    "airFoil2D": "Allrun.angles -rbfOnly",
+    "airFoil2D": "Allrun.angles -motions rbf",
 }
 
 # (name, tutorial, pictures of its results, width): side by side, or flat ones

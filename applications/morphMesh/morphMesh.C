@@ -48,6 +48,9 @@ Usage
       - \par -region \<name\>
         The mesh region.
 
+      - \par -version
+        Print the version and stop.
+
     Written are
 
       - \<time\>/polyMesh/points, or constant/polyMesh/points (-overwrite), in
@@ -86,6 +89,7 @@ Usage
 #include "morphMeshControls.H"
 #include "morphMeshInput.H"
 #include "morphMeshOutput.H"
+#include "morphVersion.H"
 #include "motionLimiter.H"
 #include "motionRecord.H"
 #include "validFraction.H"
@@ -142,6 +146,10 @@ static void reportInvalid
 
 int main(int argc, char *argv[])
 {
+    if (morphVersion::asked(argc, argv))
+    {
+        return 0;
+    }
     argList::addNote
     (
         "Apply the motion solver of dynamicMeshDict once, check the moved mesh"

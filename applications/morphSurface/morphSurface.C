@@ -36,6 +36,9 @@ Usage
         Also write the lattices, and the surface for each parameter at its
         bounds, as VTK files to the folder \<output without extension\>.lattice
 
+      - \par -version
+        Print the version and stop.
+
     The output is not written if a box folds, has none of the surface's points
     or any entry is wrong; the exit status is then 1.
 
@@ -46,6 +49,7 @@ Usage
 #include "ffdMeasures.H"
 #include "ffdPreview.H"
 #include "IFstream.H"
+#include "morphVersion.H"
 #include "OFstream.H"
 #include "OSspecific.H"
 #include "triSurface.H"
@@ -112,6 +116,10 @@ static faceList facesOf(const triSurface& surface)
 
 int main(int argc, char *argv[])
 {
+    if (morphVersion::asked(argc, argv))
+    {
+        return 0;
+    }
     argList::addNote
     (
         "Apply the boxes of ffdMotionSolver to a surface file"

@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
+#include "morphVersion.H"
 #include "pointDisplacementField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -96,6 +97,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
 
 void Foam::ffdMotionSolver::initialise()
 {
+    morphVersion::announce();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)

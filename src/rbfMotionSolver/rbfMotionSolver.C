@@ -9,6 +9,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "foamCompat.H"
 #include "invalidMotion.H"
+#include "morphVersion.H"
 #include "motionRecord.H"
 #include "pointDisplacementField.H"
 #include "pstreamCommunicator.H"
@@ -178,6 +179,7 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 
 void Foam::rbfMotionSolver::initialise()
 {
+    morphVersion::announce();
     if (!moveAllCells())
     {
         FatalIOErrorInFunction(*this)

@@ -7,6 +7,7 @@ is installed. Source of truth: the README's section "Two commands".
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 import pytest
@@ -73,3 +74,26 @@ def test_a_python_is_found_that_has_what_is_needed():
     done = bash("bin/python3With no_such_module", dict(os.environ))
     assert done.returncode == 1
     assert b"no_such_module" in done.stdout
+
+
+def test_tutorials_take_their_environment_from_one_place():
+    # Which knows of the installed package, where nothing is to be compiled
+    scripts = [path for path in (ROOT/"tutorials").glob("*/All*")
+               if path.parent.name != "include"]
+    assert len(scripts) > 30
+    for script in scripts:
+        text = script.read_text()
+        assert "etc/bashrc" not in text, script
+        if "Allwmake" in text:
+            assert "-e ../../Allwmake" in text, script
+
+
+def test_a_tutorial_that_is_nowhere_says_so(tmp_path):
+    for part in ("tutorials/include", "tutorials/ffd2D"):
+        shutil.copytree(ROOT/part, tmp_path/part, ignore=shutil.ignore_patterns(
+            "runs", "results", "log.*"))
+    if pathlib.Path("/usr/share/morphfoam/etc/bashrc").exists():
+        pytest.skip("the package is installed here")
+    done = bash(f"{tmp_path}/tutorials/ffd2D/Allrun", {"PATH": "/usr/bin:/bin"})
+    assert done.returncode == 1
+    assert b"neither in ../.. nor installed" in done.stdout
