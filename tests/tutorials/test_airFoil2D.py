@@ -101,7 +101,7 @@ def angles(case):
     return module
 
 
-@pytest.mark.parametrize("linearSolver", ["usual", "converged"])
+@pytest.mark.parametrize("linear_solver", ["usual", "converged"])
 def test_uniform_laplacian_is_valid_at_one_degree_and_not_at_two(
     angles, linear_solver
 ):
