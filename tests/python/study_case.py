@@ -71,9 +71,9 @@ def make_study(folder, *changes, text=STUDY):
 
 
 def read(path):
-    from morphfoam.study.study_file import Study
+    from morphfoam.study.study_file import StudyFile
 
-    return Study(path)
+    return StudyFile(path)
 
 
 def command(*words, status=0):

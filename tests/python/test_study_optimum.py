@@ -174,6 +174,27 @@ def test_clusters_are_counted_and_represented():
     assert np.abs((found - centres) / [0.03, 0.3]).max() < 1
 
 
+def write(study, strategy, design, seconds, responses, reason=""):
+    """An outcome as a run would leave it."""
+    outcomes.write(
+        study,
+        outcomes.Outcome(
+            strategy=strategy,
+            number=design.number,
+            status="failed" if reason else "done",
+            reason=reason,
+            parameters=design.parameters,
+            responses={} if reason else responses,
+            iterations=10 * seconds,
+            wall={"solve": seconds},
+            cpu={"solve": seconds},
+            started_from="baseline",
+            made=outcomes.recipe(study, strategy),
+            response_texts=outcomes.response_texts(study),
+        ),
+    )
+
+
 @pytest.fixture(scope="module")
 def optimised(tmp_path_factory):
     """A study with its outcomes, as if run, fitted and optimised."""
@@ -189,29 +210,9 @@ def optimised(tmp_path_factory):
     for strategy, slower in (("morph", 1), ("remesh", 3)):
         for d in designs.read(study):
             x, y = d.parameters.values()
-            outcomes.write(
-                study,
-                {
-                    "strategy": strategy,
-                    "number": d.number,
-                    "status": "done" if d.number != 3 else "failed",
-                    "reason": "" if d.number != 3 else "solve: <diverged>",
-                    "parameters": d.parameters,
-                    "derived": {},
-                    "responses": {"f": x * x + y, "g": 1 - x * y},
-                    "notes": {},
-                    "quality": {},
-                    "motion": {},
-                    "picture": "",
-                    "iterations": 10 * slower,
-                    "wall": {"solve": slower},
-                    "cpu": {"solve": slower},
-                    "attempts": 1,
-                    "startedFrom": "baseline",
-                    "made": outcomes.recipe(study, strategy),
-                    "responseTexts": outcomes.response_texts(study),
-                },
-            )
+            why = "solve: <diverged>" if d.number == 3 else ""
+            values = {"f": x * x + y, "g": 1 - x * y}
+            write(study, strategy, d, slower, values, why)
     fit.fit(study)
     optimise.optimise(study, no_runs=True)
     return study
@@ -262,11 +263,9 @@ def test_predicted_and_computed_are_set_against_each_other(optimised):
     ]
     found = fit.models(optimised, "morph")
     value = float(found["f"](designs.points(optimised, verified[:1]))[0])
-    outcome = {
-        **outcomes.read(optimised, "morph", 1),
-        "number": verified[0].number,
-        "responses": {"f": value / 1.1, "g": 0.5},
-    }
+    outcome = outcomes.read(optimised, "morph", 1)
+    outcome.number = verified[0].number
+    outcome.responses = {"f": value / 1.1, "g": 0.5}
     outcomes.write(optimised, outcome)
     row, *rest = optimise.compare(
         optimised, "morph", found, verified, range(len(verified))

@@ -270,12 +270,12 @@ def test_a_failing_baseline_stops_the_sweep(tmp_path, capsys):
 
 def test_designs_start_from_the_baselines_fields(tmp_path):
     study = started(tmp_path)
-    assert work(study, "baseline", 0)["status"] == "done"
+    assert work(study, "baseline", 0).status == "done"
     outcome = work(study, "morph", 1)
     case = outcomes.case(study, "morph", 1)
     # The baseline ended at time 3; the solver adds the time to x
     assert float((case / "6/U").read_text()) == pytest.approx(0.1 + 3)
-    assert outcome["startedFrom"] == "baseline"
+    assert outcome.started_from == "baseline"
 
 
 def test_remeshed_designs_start_from_the_template(tmp_path):
@@ -283,7 +283,7 @@ def test_remeshed_designs_start_from_the_template(tmp_path):
     outcome = work(study, "remesh", 1)
     case = outcomes.case(study, "remesh", 1)
     assert float((case / "3/U").read_text()) == pytest.approx(0.1)
-    assert outcome["startedFrom"] == "template"
+    assert outcome.started_from == "template"
     assert not outcomes.case(study, "baseline").exists()
 
 
@@ -293,7 +293,7 @@ def test_nearest_is_the_nearest_earlier_design_that_did_not_fail(tmp_path):
     table_ = designs.read(study)
     # 4 (0.15, 0.2): 1 (0.1, 0.2) is nearer than 3 (0.3, 0.4), then the baseline
     assert worker.nearer(study, table_, 4) == [1, 3]
-    assert work(study, "near", 1, 4)["startedFrom"] == "0001"
+    assert work(study, "near", 1, 4).started_from == "0001"
     case = outcomes.case(study, "near", 4)
     # Fields of design 1 under the baseline's time
     assert sorted(p.name for p in case.iterdir() if p.is_dir()) == ["3", "6"]
@@ -302,8 +302,9 @@ def test_nearest_is_the_nearest_earlier_design_that_did_not_fail(tmp_path):
     ).read_text()
     # 1 fails: 3 is not there yet, so it is the baseline
     outcome = outcomes.read(study, "near", 1)
-    outcomes.write(study, {**outcome, "status": "failed"})
-    assert work(study, "near", 4)["startedFrom"] == "baseline"
+    outcome.status = "failed"
+    outcomes.write(study, outcome)
+    assert work(study, "near", 4).started_from == "baseline"
 
 
 def test_the_plan_waits_for_what_a_design_starts_from(tmp_path):
@@ -319,7 +320,7 @@ def test_the_plan_waits_for_what_a_design_starts_from(tmp_path):
 
 def test_the_outcome_says_why_a_response_is_missing(tmp_path):
     study = started(tmp_path, ("'f = (\\S+)'", "'lift = (\\S+)'"))
-    assert work(study, "remesh", 1)["reason"] == (
+    assert work(study, "remesh", 1).reason == (
         "response f: log.solve has nothing like lift = (\\S+)"
     )
 
@@ -329,8 +330,8 @@ def test_a_response_outside_its_limits_fails_the_design(tmp_path):
         tmp_path,
         ("regex: 'f = (\\S+)'", "regex: 'f = (\\S+)', limits: [0, 0.3]"),
     )
-    assert work(study, "remesh", 1)["status"] == "done"
-    assert work(study, "remesh", 3)["reason"] == (
+    assert work(study, "remesh", 1).status == "done"
+    assert work(study, "remesh", 3).reason == (
         "response f is 0.49, outside its limits [0, 0.3]"
     )
 
@@ -343,7 +344,7 @@ def test_a_step_must_say_what_is_expected(tmp_path):
             ("steps: {solve: {run: bash solver.sh, expect: converged}}"),
         ),
     )
-    assert work(study, "remesh", 1)["reason"] == (
+    assert work(study, "remesh", 1).reason == (
         "solve: its log does not say 'converged'"
     )
 
@@ -353,9 +354,9 @@ def test_a_failed_design_is_tried_again_as_often_as_asked(tmp_path):
         tmp_path, ("optimise:", "failure: {retries: 2}\noptimise:")
     )
     outcome = work(study, "remesh", 2)
-    assert outcome["attempts"] == 3 and outcome["status"] == "failed"
+    assert outcome.attempts == 3 and outcome.status == "failed"
     assert runs(study, "0002") == 3
-    assert work(study, "remesh", 1)["attempts"] == 1
+    assert work(study, "remesh", 1).attempts == 1
 
 
 def test_designs_made_in_another_way_are_not_mixed(tmp_path):
@@ -375,7 +376,7 @@ def test_changed_responses_are_read_again_without_a_run(tmp_path):
         )
     )
     sweep.keep_up(study, "remesh", [1])
-    assert outcomes.read(study, "remesh", 1)["responses"]["h"] == (
+    assert outcomes.read(study, "remesh", 1).responses["h"] == (
         pytest.approx(0.21 + 0.2)
     )
     assert runs(study, "0001") == 1
@@ -498,7 +499,7 @@ def test_columns_are_averaged_over_the_window(tmp_path):
             ),
         ),
     )
-    assert work(study, "remesh", 1)["responses"] == {"f": 4.5, "g": 2.5}
+    assert work(study, "remesh", 1).responses == {"f": 4.5, "g": 2.5}
 
 
 def test_commands_print_several_responses_and_run_once(tmp_path):
@@ -508,7 +509,7 @@ def test_commands_print_several_responses_and_run_once(tmp_path):
         ("file: log.solve, regex: 'f = (\\S+)'", print_),
         ("file: log.solve, regex: 'g = (\\S+)'", print_),
     )
-    assert work(study, "remesh", 1)["responses"] == {"f": 1.5, "g": 2}
+    assert work(study, "remesh", 1).responses == {"f": 1.5, "g": 2}
     called = outcomes.case(study, "remesh", 1) / "called"
     assert called.read_text() == "x\n"
 
@@ -525,20 +526,20 @@ def test_notes_are_blank_where_they_cannot_be_read(tmp_path):
         ),
     )
     outcome = work(study, "remesh", 1)
-    assert outcome["status"] == "done" and outcome["notes"] == {"last": 3}
+    assert outcome.status == "done" and outcome.notes == {"last": 3}
 
 
 def test_a_picture_is_kept_and_its_failure_is_noted(tmp_path):
     study = started(
         tmp_path, ("optimise:", "picture: echo made > picture.png\noptimise:")
     )
-    assert work(study, "remesh", 1)["picture"] == "remesh/0001/picture.png"
+    assert work(study, "remesh", 1).picture == "remesh/0001/picture.png"
     study = read(
         make_study(tmp_path, ("optimise:", "picture: exit 1\noptimise:"))
     )
     outcome = work(study, "remesh", 3)
-    assert outcome["status"] == "done"
-    assert outcome["picture"] == "none: see 0003/log.picture"
+    assert outcome.status == "done"
+    assert outcome.picture == "none: see 0003/log.picture"
 
 
 def test_times_of_steps_are_wall_and_processor_time(tmp_path):
@@ -565,7 +566,7 @@ def test_a_timeout_ends_all_that_a_command_started(tmp_path):
 
 def test_an_outcome_is_whole_or_not_there(tmp_path, monkeypatch):
     study = started(tmp_path)
-    outcome = {"strategy": "remesh", "number": 1, "status": "done"}
+    outcome = outcomes.Outcome(strategy="remesh", number=1, parameters={})
 
     def crash(*_, **__):
         raise OSError("disk full")

@@ -3,9 +3,11 @@
 
 """Sweeps of shapes, each morphed from one baseline and started from its fields.
 
-The command is bin/morphStudy; README.md beside this file has every key of the
-study file. One module per concern:
+The command is bin/morphStudy; morphfoam.Study is the same from Python.
+README.md beside this file has every key of the study file. One module per
+concern:
 
+    api           the study from Python
     expressions   what constraints and derived quantities may say
     section       mappings of a file, with the keys they may have
     study_file    reads the study file and says what is wrong with it

@@ -80,13 +80,14 @@ def main():
     if verb == "run":
         options["redo"] = redo_of(options["redo"])
     # Late, so that what one verb needs does not slow the others
-    from .study_file import Study
+    from .study_file import StudyFile
 
-    study = Study(options.pop("study"))
-    module = importlib.import_module(
-        "." + {"run": "sweep"}.get(verb, verb), __package__
-    )
-    return getattr(module, verb)(study, **options)
+    study = StudyFile(options.pop("study"))
+    name = {"run": "sweep"}.get(verb, verb)
+    module = importlib.import_module("." + name, __package__)
+    found = getattr(module, verb)(study, **options)
+    # The others return what they made
+    return found if verb in ("run", "optimise") else 0
 
 
 def command():

@@ -29,7 +29,7 @@ def models(study, strategy):
     pairs = finished(study, strategy)
     points = designs.points(study, [d for d, _ in pairs])
     for design, outcome in pairs:
-        lacking = [n for n in study.fitted if n not in outcome["responses"]]
+        lacking = [n for n in study.fitted if n not in outcome.responses]
         if lacking:
             raise StudyError(
                 f"design {design.id} has no response {lacking[0]}: it was added"
@@ -37,7 +37,7 @@ def models(study, strategy):
             )
     return {
         name: metamodel.fit(
-            study, name, points, [o["responses"][name] for _, o in pairs]
+            study, name, points, [o.responses[name] for _, o in pairs]
         )
         for name in study.fitted
     }
@@ -92,6 +92,7 @@ def fit(study, strategy=None):
             )
         )
     print(path / "leaveOneOut.png")
+    return found
 
 
 def summary(model):

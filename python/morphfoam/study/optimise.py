@@ -138,14 +138,14 @@ def compare(study, strategy, found, verified, label):
             row[f"{name}.predicted"] = float(mean[0])
             row[f"{name}.deviation"] = float(deviation[0])
             computed = row[f"{name}.computed"] = (
-                outcome["responses"][name] if outcomes.is_done(outcome) else ""
+                outcome.responses[name] if outcomes.is_done(outcome) else ""
             )
             row[f"{name}.error%"] = (
                 100 * (float(mean[0]) - computed) / abs(computed)
                 if computed not in ("", 0)
                 else ""
             )
-        row["status"] = outcome["status"] if outcome else "not run"
+        row["status"] = outcome.status if outcome else "not run"
         rows.append(row)
     return rows
 

@@ -6,25 +6,77 @@ one is finished, whatever its folder looks like; one without is made anew."""
 
 import json
 import os
-
+from dataclasses import dataclass, field, fields
 
 DONE, FAILED = "done", "failed"
 BASELINE = "baseline"
 
-# An outcome of which nothing is known yet; what reading one falls back on
-BLANK = {
-    "startedFrom": "template",
-    "baselineMade": None,
-    "templateHash": None,
-    "wall": {},
-    "cpu": {},
-    "responses": {},
-    "notes": {},
-    "quality": {},
-    "motion": {},
-    "iterations": None,
-    "picture": "",
+# What a field is called in the file, where that is not its name
+KEYS = {
+    "started_from": "startedFrom",
+    "baseline_made": "baselineMade",
+    "template_hash": "templateHash",
+    "template_files": "templateFiles",
+    "response_texts": "responseTexts",
 }
+
+
+@dataclass(kw_only=True)
+class Outcome:
+    """What became of one design of one strategy, or of the baseline.
+
+    number          None: the baseline
+    derived         {name: value}, as parameters, responses and notes
+    started_from    template, baseline, or the number of the design whose
+                    fields it started from
+    baseline_made   when the baseline was finished that it is a copy of
+    template_hash   of the template when the design was made
+    template_files  of the baseline: {file: digest of what was copied, and of
+                    the copy with the parameters in it}
+    wall, cpu       {step: seconds}
+    quality         the last row of morphMesh's table
+    motion          attainable and moved fraction of the motion
+    iterations      of the solver; None: it was not reached
+    picture         its path in the study's folder
+    made            the recipe, response_texts: how responses are read; what
+                    the study file says now is compared with them
+    """
+
+    started_from: str = "template"
+    baseline_made: str | None = None
+    template_hash: str | None = None
+    wall: dict = field(default_factory=dict)
+    cpu: dict = field(default_factory=dict)
+    responses: dict = field(default_factory=dict)
+    notes: dict = field(default_factory=dict)
+    quality: dict = field(default_factory=dict)
+    motion: dict = field(default_factory=dict)
+    iterations: int | None = None
+    picture: str = ""
+    strategy: str
+    number: int | None
+    parameters: dict
+    derived: dict = field(default_factory=dict)
+    attempts: int = 1
+    template_files: dict = field(default_factory=dict)
+    response_texts: dict = field(default_factory=dict)
+    made: dict = field(default_factory=dict)
+    status: str = FAILED
+    reason: str = ""
+    finished: str = ""
+
+    @property
+    def done(self):
+        return self.status == DONE
+
+    @property
+    def name(self):
+        return f"{self.number:04d}" if self.number else BASELINE
+
+    @property
+    def seconds(self):
+        """Wall time of all steps."""
+        return sum(self.wall.values())
 
 
 def path(study, strategy, number=None):
@@ -47,22 +99,30 @@ def read(study, strategy, number=None):
     file = path(study, strategy, number)
     if not file.exists():
         return None
-    return {**BLANK, **json.loads(file.read_text())}
+    content = json.loads(file.read_text())
+    return Outcome(
+        **{
+            f.name: content[KEYS.get(f.name, f.name)]
+            for f in fields(Outcome)
+            if KEYS.get(f.name, f.name) in content
+        }
+    )
 
 
 def write(study, outcome):
-    file = path(study, outcome["strategy"], outcome["number"])
+    file = path(study, outcome.strategy, outcome.number)
     file.parent.mkdir(parents=True, exist_ok=True)
+    content = {KEYS.get(k, k): v for k, v in vars(outcome).items()}
     new = file.with_suffix(f".new{os.getpid()}")
     with new.open("w") as stream:
-        json.dump(outcome, stream, indent=1)
+        json.dump(content, stream, indent=1)
         stream.flush()
         os.fsync(stream.fileno())
     os.replace(new, file)
 
 
 def is_done(outcome):
-    return outcome is not None and outcome["status"] == DONE
+    return outcome is not None and outcome.done
 
 
 def recipe(study, strategy):
@@ -92,7 +152,7 @@ def steps(items):
 def changes(study, strategy, outcome):
     """The keys of the recipe in which an outcome differs."""
     now = json.loads(json.dumps(recipe(study, strategy)))
-    return sorted(k for k in now if now[k] != outcome["made"].get(k))
+    return sorted(k for k in now if now[k] != outcome.made.get(k))
 
 
 def response_texts(study):

@@ -70,7 +70,7 @@ def front(study, strategy, points, objectives, label, rows, path):
     figure, axes = grid(1, 1, 7, 5)
     axis = axes[0, 0]
     done = [
-        {**d.parameters, **o["responses"]}
+        {**d.parameters, **o.responses}
         for d, o in (
             (d, outcomes.read(study, strategy, d.number))
             for d in designs.read(study)
@@ -163,7 +163,7 @@ def sampled(study, strategy, path):
         kinds.append(
             "not run"
             if not outcome
-            else outcome["status"]
+            else outcome.status
             if not outcomes.is_done(outcome)
             else "done"
             if d.origin == designs.SAMPLED

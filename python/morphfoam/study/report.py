@@ -278,4 +278,6 @@ def report(study):
     for name in study.strategies:
         if results.rows(study, name, baseline=False):
             page.strategy(name)
-    print(page.write())
+    path = page.write()
+    print(path)
+    return path

@@ -21,31 +21,26 @@ def rows(study, strategy, baseline=True):
 
 
 def row(study, outcome, origin):
-    quality = {f"mesh.{k}": v for k, v in outcome["quality"].items()}
+    quality = {f"mesh.{k}": v for k, v in outcome.quality.items()}
     return {
-        "design": f"{outcome['number']:04d}"
-        if outcome["number"]
-        else "baseline",
+        "design": outcome.name,
         "origin": origin,
-        "status": outcome["status"],
-        **outcome["parameters"],
-        **outcome["derived"],
-        **{
-            name: outcome["responses"].get(name, "")
-            for name in study.responses
-        },
-        **{name: outcome["notes"].get(name, "") for name in study.notes},
-        "iterations": outcome["iterations"],
-        "time": round(sum(outcome["wall"].values()), 3),
-        "cpuTime": round(sum(outcome["cpu"].values()), 3),
-        **{f"time.{k}": v for k, v in outcome["wall"].items()},
-        **{f"cpuTime.{k}": v for k, v in outcome["cpu"].items()},
-        **outcome["motion"],
+        "status": outcome.status,
+        **outcome.parameters,
+        **outcome.derived,
+        **{name: outcome.responses.get(name, "") for name in study.responses},
+        **{name: outcome.notes.get(name, "") for name in study.notes},
+        "iterations": outcome.iterations,
+        "time": round(outcome.seconds, 3),
+        "cpuTime": round(sum(outcome.cpu.values()), 3),
+        **{f"time.{k}": v for k, v in outcome.wall.items()},
+        **{f"cpuTime.{k}": v for k, v in outcome.cpu.items()},
+        **outcome.motion,
         **quality,
-        "startedFrom": outcome["startedFrom"],
-        "attempts": outcome["attempts"],
-        "picture": outcome["picture"],
-        "reason": outcome["reason"],
+        "startedFrom": outcome.started_from,
+        "attempts": outcome.attempts,
+        "picture": outcome.picture,
+        "reason": outcome.reason,
     }
 
 
@@ -77,7 +72,7 @@ def conclude(study, strategy, chosen):
         baseline = outcomes.read(study, outcomes.BASELINE)
         if baseline and not outcomes.is_done(baseline):
             print(
-                f"Error: the baseline failed: {baseline['reason']}\n    See"
+                f"Error: the baseline failed: {baseline.reason}\n    See"
                 f" {outcomes.case(study, outcomes.BASELINE)}; corrected, the"
                 " same command goes on"
             )

@@ -24,3 +24,4 @@ def sample(study):
         print(
             f"smallest distance of two designs: {distance:.3g} of the bounds"
         )
+    return added

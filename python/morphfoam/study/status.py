@@ -28,7 +28,7 @@ def status(study, cores=None):
             f" {len(failed)} failed, {waiting} not finished"
         )
         if finished and waiting:
-            times = [sum(o["wall"].values()) for o in finished]
+            times = [o.seconds for o in finished]
             line += (
                 "; some "
                 + sweep.duration(sweep.time_left(times, waiting, at_once))
@@ -36,6 +36,6 @@ def status(study, cores=None):
             )
         print(line)
         for outcome in failed:
-            print(f"    {outcome['number']:04d}: {outcome['reason']}")
+            print(f"    {outcome.name}: {outcome.reason}")
         if finished:
             print(f"    {results.write(study, strategy)}")

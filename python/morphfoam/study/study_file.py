@@ -166,7 +166,7 @@ def read_response(name, content, where, steps):
     return response
 
 
-class Study:
+class StudyFile:
     """A study file that was found right, and what follows from it."""
 
     KEYS = (

@@ -95,7 +95,7 @@ def keep_up(study, strategy, numbers):
         found.append(baseline)
     found = [outcome for outcome in found if outcome]
     for outcome in found:
-        number, name = outcome["number"], outcome["strategy"]
+        number, name = outcome.number, outcome.strategy
         what = f"design {number:04d} of {name}" if number else "the baseline"
         changed = outcomes.changes(study, name, outcome)
         if changed:
@@ -107,17 +107,15 @@ def keep_up(study, strategy, numbers):
             )
         if (
             number
-            and outcome["baselineMade"]
-            and (
-                not baseline or baseline["finished"] != outcome["baselineMade"]
-            )
+            and outcome.baseline_made
+            and (not baseline or baseline.finished != outcome.baseline_made)
         ):
             raise StudyError(
                 f"{what} was made from a baseline that is no more there. Remove"
                 f" {outcomes.path(study, name, number).parent} to have all"
                 " designs made anew"
             )
-        if outcome["responseTexts"] != outcomes.response_texts(study):
+        if outcome.response_texts != outcomes.response_texts(study):
             read_again(study, outcome)
     note_template(study, found)
 
@@ -125,12 +123,9 @@ def keep_up(study, strategy, numbers):
 def note_template(study, found):
     """A template may be run in and written to: changes are no error."""
     now = case_folder.template_hash(study)
-    older = [o for o in found if o["templateHash"] not in (now, None)]
+    older = [o for o in found if o.template_hash not in (now, None)]
     if older:
-        names = ", ".join(
-            f"{o['number']:04d}" if o["number"] else "baseline"
-            for o in older[:5]
-        )
+        names = ", ".join(o.name for o in older[:5])
         print(
             f"Note: {study.template} has changed since {len(older)} of the"
             f" finished designs were made ({names}"
@@ -141,17 +136,18 @@ def note_template(study, found):
 
 
 def read_again(study, outcome):
-    if outcome["reason"] and not outcome["reason"].startswith("response"):
+    if outcome.reason and not outcome.reason.startswith("response"):
         return
-    maker = worker.Worker(study, outcome["strategy"], outcome["number"] or 0)
+    maker = worker.Worker(study, outcome.strategy, outcome.number or 0)
     try:
         reader = maker.reader()
-        outcome["responses"] = reader.responses()
-        outcome["notes"] = reader.notes()
-        outcome.update(status=outcomes.DONE, reason="")
+        outcome.responses = reader.responses()
+        outcome.notes = reader.notes()
+        outcome.status, outcome.reason = outcomes.DONE, ""
     except responses.ResponseError as error:
-        outcome.update(status=outcomes.FAILED, reason=str(error), responses={})
-    outcome["responseTexts"] = outcomes.response_texts(study)
+        outcome.status, outcome.reason = outcomes.FAILED, str(error)
+        outcome.responses = {}
+    outcome.response_texts = outcomes.response_texts(study)
     outcomes.write(study, outcome)
 
 
@@ -287,7 +283,7 @@ class Progress:
             outcome = outcomes.read(study, strategy, design.number)
             if outcome:
                 self.finished += 1
-                self.times.append(sum(outcome["wall"].values()))
+                self.times.append(outcome.seconds)
             else:
                 self.waiting.append(design.number)
         self.baseline = study.strategies[strategy].start != "template" and (
@@ -313,7 +309,7 @@ class Progress:
             if outcome:
                 self.waiting.remove(number)
                 self.finished += 1
-                self.times.append(sum(outcome["wall"].values()))
+                self.times.append(outcome.seconds)
                 print(
                     f"[{self.finished}/{self.total}] {number:04d}: "
                     f"{describe(outcome)}{self.left()}",
@@ -349,8 +345,8 @@ def duration(seconds):
 
 
 def describe(outcome):
-    times = ", ".join(f"{k} {v:.1f}" for k, v in outcome["wall"].items())
-    text = outcome["status"]
-    if outcome["reason"]:
-        text += f", {outcome['reason']}"
+    times = ", ".join(f"{k} {v:.1f}" for k, v in outcome.wall.items())
+    text = outcome.status
+    if outcome.reason:
+        text += f", {outcome.reason}"
     return f"{text} ({times} s)"

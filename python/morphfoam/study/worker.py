@@ -12,7 +12,6 @@ failure, and with 1 without one or where the baseline fails, as the designs
 cannot start without it."""
 
 import contextlib
-import copy
 import datetime
 import fcntl
 import os
@@ -22,7 +21,7 @@ import sys
 
 from . import case_folder, designs, outcomes, process, responses
 from .errors import StudyError
-from .study_file import Strategy, Study
+from .study_file import Strategy, StudyFile
 
 
 class DesignFailed(Exception):
@@ -71,7 +70,7 @@ class Worker:
             try:
                 self.make_case()
                 self.run_steps()
-                self.outcome["responses"] = self.reader().responses()
+                self.outcome.responses = self.reader().responses()
                 status, reason = outcomes.DONE, ""
             except (
                 DesignFailed,
@@ -79,13 +78,13 @@ class Worker:
                 responses.ResponseError,
             ) as error:
                 status, reason = outcomes.FAILED, str(error)
-            self.outcome.update(status=status, reason=reason)
+            self.outcome.status, self.outcome.reason = status, reason
             if status == outcomes.DONE:
                 break
         self.read_what_there_is()
         if status == outcomes.DONE:
             self.take_picture()
-        self.outcome["finished"] = datetime.datetime.now().isoformat(
+        self.outcome.finished = datetime.datetime.now().isoformat(
             timespec="seconds"
         )
         outcomes.write(self.study, self.outcome)
@@ -94,17 +93,16 @@ class Worker:
     def blank(self, attempt):
         """The outcome before anything is done."""
         study, values = self.study, self.study.values(self.parameters)
-        return {
-            **copy.deepcopy(outcomes.BLANK),
-            "strategy": self.strategy.name,
-            "number": self.number,
-            "parameters": self.parameters,
-            "derived": {d.name: float(values[d.name]) for d in study.derived},
-            "attempts": attempt,
-            "templateHash": case_folder.template_hash(study),
-            "responseTexts": outcomes.response_texts(study),
-            "made": outcomes.recipe(study, self.strategy.name),
-        }
+        return outcomes.Outcome(
+            strategy=self.strategy.name,
+            number=self.number,
+            parameters=self.parameters,
+            derived={d.name: float(values[d.name]) for d in study.derived},
+            attempts=attempt,
+            template_hash=case_folder.template_hash(study),
+            response_texts=outcomes.response_texts(study),
+            made=outcomes.recipe(study, self.strategy.name),
+        )
 
     def make_case(self):
         """The case folder, anew."""
@@ -116,10 +114,10 @@ class Worker:
             case_folder.copy_case(
                 outcomes.case(self.study, outcomes.BASELINE), self.case
             )
-            self.outcome["startedFrom"] = outcomes.BASELINE
-            self.outcome["baselineMade"] = outcomes.read(
+            self.outcome.started_from = outcomes.BASELINE
+            self.outcome.baseline_made = outcomes.read(
                 self.study, outcomes.BASELINE
-            )["finished"]
+            ).finished
             if self.strategy.start == "nearest":
                 self.take_nearest_fields()
         case_folder.write_parameters(self.study, self.case, self.parameters)
@@ -134,7 +132,7 @@ class Worker:
                     outcomes.case(self.study, self.strategy.name, number),
                     self.case,
                 )
-                self.outcome["startedFrom"] = f"{number:04d}"
+                self.outcome.started_from = f"{number:04d}"
                 return
 
     def run_steps(self):
@@ -143,8 +141,8 @@ class Worker:
             status, wall, cpu = process.run(
                 step.run, self.case, log, step.timeout, self.environment()
             )
-            self.outcome["wall"][step.name] = round(wall, 3)
-            self.outcome["cpu"][step.name] = round(cpu, 3)
+            self.outcome.wall[step.name] = round(wall, 3)
+            self.outcome.cpu[step.name] = round(cpu, 3)
             if status is None:
                 raise DesignFailed(
                     f"{step.name}: timeout after {step.timeout:g} s"
@@ -163,7 +161,7 @@ class Worker:
         step = self.study.iteration_step or self.strategy.steps[-1].name
         log = self.case / f"log.{step}"
         if log.exists():
-            self.outcome["iterations"] = len(
+            self.outcome.iterations = len(
                 re.findall(
                     self.study.iteration_regex,
                     log.read_text(errors="replace"),
@@ -171,15 +169,15 @@ class Worker:
                 )
             )
         reader = self.reader()
-        reader.known.update(self.outcome["responses"])
-        self.outcome["notes"] = reader.notes()
+        reader.known.update(self.outcome.responses)
+        self.outcome.notes = reader.notes()
         with contextlib.suppress(responses.ResponseError):
             names, rows = responses.columns(
                 responses.newest(
                     self.case, "postProcessing/**/morphMesh/*/quality.dat"
                 )
             )
-            self.outcome["quality"] = {
+            self.outcome.quality = {
                 name: float(word)
                 for name, word in zip(names, rows[-1])
                 if re.match(r"[-+]?[.\d]", word)
@@ -188,7 +186,7 @@ class Worker:
             text = responses.newest(
                 self.case, "postProcessing/**/morphMesh/*/motion"
             ).read_text()
-            self.outcome["motion"] = {
+            self.outcome.motion = {
                 name: float(value)
                 for name, value in re.findall(
                     r"^(attainable|moved)\s+(\S+);", text, re.MULTILINE
@@ -206,7 +204,7 @@ class Worker:
             self.environment(),
         )
         file = self.case / "picture.png"
-        self.outcome["picture"] = (
+        self.outcome.picture = (
             str(file.relative_to(self.study.folder))
             if file.exists()
             else f"none: see {file.parent.name}/log.picture"
@@ -269,7 +267,7 @@ def is_engine(pid):
 def main(arguments):
     path, snapshot, strategy, number = arguments
     process.die_with_parent(is_engine)
-    study = Study(path, snapshot)
+    study = StudyFile(path, snapshot)
     number = int(number)
     lock = study.folder / "outcomes" / f".lock.{strategy}.{number}"
     lock.parent.mkdir(parents=True, exist_ok=True)
@@ -277,8 +275,8 @@ def main(arguments):
         # Another sweep's worker may still be at it, on a cluster
         fcntl.flock(held, fcntl.LOCK_EX)
         outcome = outcomes.read(study, strategy, number or None)
-        if outcome and (outcome["status"] == outcomes.DONE or number):
-            status = outcome["status"]
+        if outcome and (outcome.status == outcomes.DONE or number):
+            status = outcome.status
         else:
             status = Worker(study, strategy, number).work()
     lock.unlink(missing_ok=True)
