@@ -73,6 +73,22 @@ class Rib:
 
         self.area = h * (e + E)
 
+    def corners(self):
+        """Of the rib and of its layer, as the dictionaries name them."""
+        return {
+            "foot": self.foot,
+            "corner": self.corner,
+            "outerFoot": self.outer_foot,
+            "outerCorner": self.outer_corner,
+        }
+
+    def above(self):
+        """Where the lines from there end at the upper wall."""
+        return {
+            "aboveFoot": self.above_foot,
+            "aboveCorner": self.above_corner,
+        }
+
     def beyond(self, x, distance):
         return tuple(a + distance * b for a, b in zip(x, self.bisector))
 
@@ -156,9 +172,7 @@ def geometry(rib, cells):
         f"middle {DEPTH/2};",
         "",
     ]
-    corners = ("foot", "corner", "outerFoot", "outerCorner")
-    for name in corners + ("aboveFoot", "aboveCorner"):
-        point = getattr(rib, name)
+    for name, point in {**rib.corners(), **rib.above()}.items():
         lines += xy(name, point)
         lines.append(f"{name}MinusX {-point[0]:.12g};")
     lines += [""] + polyline(
@@ -170,8 +184,9 @@ def geometry(rib, cells):
     lines += [""] + [f"{name} {n};" for name, n in cells.items()]
 
     lines += ["", "// The baseline, and from there"]
-    for name in corners:
-        old, new = getattr(start, name), getattr(rib, name)
+    for (name, old), new in zip(
+        start.corners().items(), rib.corners().values()
+    ):
         lines += xy(f"{name}0", old)
         lines.append(f"{name}0MinusX {-old[0]:.12g};")
         lines += moves(name, old, new)
