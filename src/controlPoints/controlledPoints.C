@@ -14,16 +14,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Points this close to the axis of a wedge, in units of the mesh's size, are on
-// it
-static const scalar samePlace = 1e-8;
-
 // More than any displacement, for points whose displacement is not known yet;
 // its square is still a number
 static const vector unknown = vector::uniform(GREAT);
-
-// In units of the largest displacement: what those of coupled points may lack
-static const scalar samePeriod = 1e-6;
 
 } // End namespace Foam
 
@@ -36,8 +29,7 @@ Foam::controlledPoints::controlledPoints
     const dictionary& dict,
     const pointField& points0,
     const PtrList<controlPointGroup>& groups,
-    const planarReduction& plane,
-    const cyclicCopies& coupled,
+    const reducedMesh& reduced,
     listedControlPoints& listedPoints
 )
 :
@@ -45,8 +37,8 @@ Foam::controlledPoints::controlledPoints
     dict_(dict),
     points0_(points0),
     groups_(groups),
-    plane_(plane),
-    coupled_(coupled)
+    plane_(reduced.plane()),
+    coupled_(reduced.coupled())
 {
     assign(listedPoints);
     findMembers();
@@ -63,11 +55,9 @@ void Foam::controlledPoints::assign(listedControlPoints& listedPoints)
     labelList group(mesh_.nPoints(), none);
     labelList listed(mesh_.nPoints(), -1);
 
-    const scalar axisTolerance =
-        samePlace*boundBox(points0_, true).mag();
     forAll(points0_, pointi)
     {
-        if (plane_.onAxis(points0_[pointi], axisTolerance))
+        if (plane_.onAxis(points0_[pointi]))
         {
             group[pointi] = groups_.size();
         }
@@ -94,7 +84,7 @@ void Foam::controlledPoints::assign(listedControlPoints& listedPoints)
     onAxis_.setSize(labels_.size());
     forAll(labels_, i)
     {
-        onAxis_[i] = plane_.onAxis(points0_[labels_[i]], axisTolerance);
+        onAxis_[i] = plane_.onAxis(points0_[labels_[i]]);
     }
     group_ = UIndirectList<label>(group, labels_);
     listed_ = UIndirectList<label>(listed, labels_);
@@ -254,7 +244,7 @@ void Foam::controlledPoints::matchCopies
             }
             else if
             (
-                mag(value - *taken) > samePeriod*largest
+                mag(value - *taken) > cyclicCopies::tolerance*largest
              && !groups_[group_[place]].slides()
              && message.str().empty()
             )
@@ -310,11 +300,7 @@ Foam::vectorField Foam::controlledPoints::displacements() const
     matchCopies(told, d);
     forAll(d, i)
     {
-        d[i] = plane_.reduce(points0_[labels_[i]], d[i]);
-        if (onAxis_[i])
-        {
-            d[i] -= (d[i] & plane_.radial())*plane_.radial();
-        }
+        d[i] = plane_.reduceMotion(points0_[labels_[i]], d[i]);
     }
     return d;
 }

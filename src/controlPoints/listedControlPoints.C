@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "listedControlPoints.H"
+#include "eigenFields.H"
 #include "positionTable.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -53,10 +54,7 @@ Foam::boolList Foam::listedControlPoints::firstAtPosition
             const point& y = positions[b];
             return
                 x != y
-              ? std::lexicographical_compare
-                (
-                    x.cdata(), x.cdata() + 3, y.cdata(), y.cdata() + 3
-                )
+              ? before(x, y)
               : a < b;
         }
     );

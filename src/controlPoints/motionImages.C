@@ -108,8 +108,6 @@ Foam::motionImages::motionImages
     ),
     supportRadius_(0)
 {
-    coupled_ = cyclicCopies::New(mesh, points0, found_);
-
     if (settings_.images == policy::no)
     {
         return;

@@ -8,18 +8,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "StringStream.H"
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-// In units of the largest displacement: what those in a plane of symmetry may
-// lack
-static const scalar samePeriod = 1e-6;
-
-} // End namespace Foam
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::rbfControlPoints::rbfControlPoints
@@ -28,27 +16,25 @@ Foam::rbfControlPoints::rbfControlPoints
     const dictionary& dict,
     const pointField& points0,
     const PtrList<controlPointGroup>& groups,
-    const planarReduction& plane,
+    const reducedMesh& reduced,
     motionImages& images,
     const scalar featureAngle
 )
 :
     dict_(dict),
     groups_(groups),
-    plane_(plane),
+    reduced_(reduced),
     images_(images),
-    listedPoints_(points0, groups, plane),
-    controlled_
-    (
-        mesh, dict, points0, groups, plane, images.coupled(), listedPoints_
-    ),
+    listedPoints_(points0, groups, reduced.plane()),
+    controlled_(mesh, dict, points0, groups, reduced, listedPoints_),
     sliding_
     (
-        mesh, dict, points0, groups, plane, featureAngle, controlled_.labels(),
-        controlled_.onAxis()
+        mesh, dict, points0, groups, reduced.plane(), featureAngle,
+        controlled_.labels(), controlled_.onAxis()
     ),
     follow_(false),
-    farthest_(boundBox(points0, true).mag())
+    farthest_(boundBox(points0, true).mag()),
+    listedRegions_(regionsOfListed())
 {}
 
 
@@ -62,10 +48,10 @@ morph::ControlPoint Foam::rbfControlPoints::condition
     const vector& d
 ) const
 {
-    const morph::Vector3 position = toEigen(plane_.position(x));
+    const morph::Vector3 position = toEigen(reduced_.plane().position(x));
 
     // In a plane two directions are all there are
-    const label dimensions = plane_.active() ? 2 : 3;
+    const label dimensions = reduced_.plane().active() ? 2 : 3;
     if (!slides || normals.size() >= dimensions)
     {
         return morph::ControlPoint::prescribed(position, toEigen(d));
@@ -79,68 +65,50 @@ morph::ControlPoint Foam::rbfControlPoints::condition
 }
 
 
+Foam::labelList Foam::rbfControlPoints::regionsOfListed() const
+{
+    pointField positions(listedPoints_.nFree());
+    forAll(positions, i)
+    {
+        positions[i] = listedPoints_.position(i);
+    }
+    return reduced_.regionsAt(positions);
+}
+
+
 void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 {
-    morph::ControlPoints all;
-    DynamicList<label> places;
+    List<controlCandidates> all(reduced_.nRegions());
+    List<DynamicList<label>> places(all.size());
     for (label i = 0; i < controlled_.size(); ++i)
     {
         const bool first = controlled_.firstCopy(i) || !images_.periodic();
         if (controlled_.owned(i) && first)
         {
-            all.push_back(conditions_[i]);
-            places.append(i);
+            const label regioni = reduced_.regionOf(controlled_.labels()[i]);
+            all[regioni].whole.push_back(conditions_[i]);
+            places[regioni].append(i);
         }
     }
     forAll(freeValues, i)
     {
-        const point x = listedPoints_.position(i);
-        all.push_back(condition(x, false, List<vector>(), freeValues[i]));
-        places.append(-1);
+        const label regioni = listedRegions_[i];
+        all[regioni].whole.push_back
+        (
+            condition
+            (
+                listedPoints_.position(i), false, List<vector>(), freeValues[i]
+            )
+        );
+        places[regioni].append(-1);
+    }
+    forAll(all, regioni)
+    {
+        all[regioni].places.transfer(places[regioni]);
     }
 
-    OStringStream message;
-    double largest = 0;
-    for (const morph::ControlPoint& p : all)
-    {
-        if (!p.value.allFinite() || p.value.norm() > 0.1*GREAT)
-        {
-            message
-                << "The prescribed displacement at " << toFoam(p.position)
-                << " is no finite number: " << toFoam(p.value);
-            break;
-        }
-        largest = std::max(largest, p.value.norm());
-    }
-
-    std::vector<morph::Index> kept;
-    if (message.str().empty())
-    {
-        try
-        {
-            kept = morph::withoutDuplicates(all, 1e-8*largest);
-        }
-        catch (const morph::ConflictingControlPoints& conflict)
-        {
-            message
-                << "Contradicting control points: " << conflict.what() << nl
-                << "    Give coincident points one displacement, or remove"
-                << " all but one of them";
-        }
-    }
-    dictionaryChecks::stopIf(dict_, message.str());
-
-    candidates_.clear();
-    candidatePoints_.setSize(kept.size());
-    places_.setSize(kept.size());
-    forAll(candidatePoints_, j)
-    {
-        const label i = places[kept[j]];
-        candidates_.push_back(all[kept[j]]);
-        candidatePoints_[j] = i < 0 ? -1 : controlled_.labels()[i];
-        places_[j] = i;
-    }
-    whole_ = candidates_;
+    checkFinite(all);
+    mergeDuplicates(all);
     if (images_.active())
     {
         leaveToImages();
@@ -148,39 +116,126 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 }
 
 
-void Foam::rbfControlPoints::leaveToImages()
+void Foam::rbfControlPoints::checkFinite
+(
+    const List<controlCandidates>& all
+) const
 {
-    const scalar largest = largestValue();
     OStringStream message;
-    morph::ControlPoints left, whole;
-    DynamicList<label> labels, places;
-    forAll(candidatePoints_, j)
+    for (const controlCandidates& c : all)
     {
-        const morph::ControlPoint& p = candidates_[j];
-        scalar contradiction = 0;
-        const morph::ControlPoint rest = images_.restricted(p, contradiction);
-        if (contradiction > samePeriod*largest && message.str().empty())
+        for (const morph::ControlPoint& p : c.whole)
+        {
+            const bool finite =
+                p.value.allFinite()
+             && p.value.lpNorm<Eigen::Infinity>() < 0.1*GREAT;
+            if (!finite && message.str().empty())
+            {
+                message
+                    << "The prescribed displacement at " << toFoam(p.position)
+                    << " is not finite: " << toFoam(p.value);
+            }
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
+}
+
+
+void Foam::rbfControlPoints::mergeDuplicates
+(
+    const List<controlCandidates>& all
+)
+{
+    scalar largest = 0;
+    for (const controlCandidates& c : all)
+    {
+        for (const morph::ControlPoint& p : c.whole)
+        {
+            largest = max(largest, p.value.norm());
+        }
+    }
+
+    OStringStream message;
+    candidates_ = List<controlCandidates>(all.size());
+    forAll(all, regioni)
+    {
+        const controlCandidates& c = all[regioni];
+        std::vector<morph::Index> kept;
+        try
+        {
+            kept = morph::withoutDuplicates(c.whole, 1e-8*largest);
+        }
+        catch (const morph::ConflictingControlPoints& conflict)
         {
             message
-                << "what is prescribed at " << toFoam(p.position) << ", "
-                << toFoam(p.C()*p.g()) << ", leaves the plane of symmetry or"
-                << " axis of rotation there by " << contradiction;
+                << "Contradicting control points: " << conflict.what() << nl
+                << "    Give coincident points one displacement, or remove"
+                << " all but one of them";
+            break;
         }
-        if (rest.k > 0)
+
+        controlCandidates& merged = candidates_[regioni];
+        merged.meshPoints.setSize(kept.size());
+        merged.places.setSize(kept.size());
+        forAll(merged.places, j)
         {
-            left.push_back(rest);
-            whole.push_back(p);
-            labels.append(candidatePoints_[j]);
-            places.append(places_[j]);
+            const label i = c.places[kept[j]];
+            merged.whole.push_back(c.whole[kept[j]]);
+            merged.meshPoints[j] = i < 0 ? -1 : controlled_.labels()[i];
+            merged.places[j] = i;
         }
+        merged.conditions = merged.whole;
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
+}
+
+
+void Foam::rbfControlPoints::leaveToImages()
+{
+    scalar largest = 0;
+    for (const controlCandidates& c : candidates_)
+    {
+        largest = max(largest, c.largestValue());
+    }
+    reduce(largest, maxOp<scalar>());
+
+    OStringStream message;
+    List<controlCandidates> left(candidates_.size());
+    forAll(candidates_, regioni)
+    {
+        const controlCandidates& c = candidates_[regioni];
+        DynamicList<label> kept;
+        for (label j = 0; j < c.size(); ++j)
+        {
+            const morph::ControlPoint& p = c.whole[j];
+            scalar contradiction = 0;
+            const morph::ControlPoint rest =
+                images_.restricted(p, contradiction);
+            if
+            (
+                contradiction > cyclicCopies::tolerance*largest
+             && message.str().empty()
+            )
+            {
+                message
+                    << "what is prescribed at " << toFoam(p.position) << ", "
+                    << toFoam(p.C()*p.g()) << ", leaves the plane of symmetry"
+                    << " or axis of rotation there by " << contradiction;
+            }
+            if (rest.k > 0)
+            {
+                left[regioni].conditions.push_back(rest);
+                left[regioni].whole.push_back(p);
+                kept.append(j);
+            }
+        }
+        left[regioni].meshPoints = UIndirectList<label>(c.meshPoints, kept);
+        left[regioni].places = UIndirectList<label>(c.places, kept);
     }
     images_.disableIf(message.str());
     if (images_.active())
     {
-        candidates_.swap(left);
-        whole_.swap(whole);
-        candidatePoints_.transfer(labels);
-        places_.transfer(places);
+        candidates_.transfer(left);
     }
 }
 
@@ -199,14 +254,9 @@ morph::ControlPoint Foam::rbfControlPoints::restricted
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::rbfControlPoints::largestValue() const
+Foam::scalar Foam::rbfControlPoints::largestValue(const label regioni) const
 {
-    scalar largest = 0;
-    for (const morph::ControlPoint& p : candidates_)
-    {
-        largest = max(largest, p.g().norm());
-    }
-    return returnReduce(largest, maxOp<scalar>());
+    return returnReduce(candidates_[regioni].largestValue(), maxOp<scalar>());
 }
 
 
@@ -276,37 +326,39 @@ bool Foam::rbfControlPoints::update(const bool rebuild)
 }
 
 
-morph::Vectors Foam::rbfControlPoints::atCandidates
+bool Foam::rbfControlPoints::follows
 (
-    const morph::RbfInterpolant& field
+    const controlCandidates& c,
+    const label j,
+    const morph::Vector3& s
 ) const
 {
-    morph::Vectors positions(candidates_.size(), 3);
-    for (std::size_t j = 0; j < candidates_.size(); ++j)
-    {
-        positions.row(j) = candidates_[j].position.transpose();
-    }
-    return field(positions);
+    return
+        c.whole[j].slides()
+     && sliding_.follows(c.places[j])
+     && s.norm() < farthest_;
 }
 
 
 void Foam::rbfControlPoints::renew
 (
+    const label regioni,
     const morph::Vectors& s,
-    morph::ControlPoints& candidates
+    morph::ControlPoints& values
 )
 {
-    forAll(places_, j)
+    controlCandidates& c = candidates_[regioni];
+    forAll(c.places, j)
     {
-        const label i = places_[j];
-        morph::ControlPoint& p = whole_[j];
         const morph::Vector3 here = s.row(j).transpose();
-
-        // Not for an iteration that gets lost
-        if (p.slides() && sliding_.follows(i) && here.norm() < farthest_)
+        if (follows(c, j, here))
         {
-            morph::slideOnto(p, here, sliding_.planes(i, toFoam(here)));
-            candidates[j].value = restricted(p).value;
+            morph::ControlPoint& p = c.whole[j];
+            morph::slideOnto
+            (
+                p, here, sliding_.planes(c.places[j], toFoam(here))
+            );
+            values[j].value = restricted(p).value;
         }
     }
 }
@@ -314,7 +366,8 @@ void Foam::rbfControlPoints::renew
 
 bool Foam::rbfControlPoints::turned
 (
-    const morph::RbfInterpolant& field,
+    const label regioni,
+    const morph::Vectors& s,
     const scalar cosine
 ) const
 {
@@ -323,16 +376,17 @@ bool Foam::rbfControlPoints::turned
         return false;
     }
     scalar least = 1;
-    const morph::Vectors s = atCandidates(field);
-    forAll(places_, j)
+    const controlCandidates& c = candidates_[regioni];
+    forAll(c.places, j)
     {
-        const label i = places_[j];
-        morph::ControlPoint p = whole_[j];
         const morph::Vector3 here = s.row(j).transpose();
-        if (p.slides() && sliding_.follows(i) && here.norm() < farthest_)
+        if (follows(c, j, here))
         {
-            const scalar present =
-                morph::slideOnto(p, here, sliding_.planes(i, toFoam(here)));
+            morph::ControlPoint p = c.whole[j];
+            const scalar present = morph::slideOnto
+            (
+                p, here, sliding_.planes(c.places[j], toFoam(here))
+            );
             least = min(least, present);
         }
     }
@@ -342,38 +396,40 @@ bool Foam::rbfControlPoints::turned
 
 void Foam::rbfControlPoints::renewDirections
 (
-    const morph::RbfInterpolant& field
+    const label regioni,
+    const morph::Vectors& s
 )
 {
-    const morph::Vectors s = atCandidates(field);
-    forAll(places_, j)
+    controlCandidates& c = candidates_[regioni];
+    forAll(c.places, j)
     {
-        const label i = places_[j];
-        morph::ControlPoint& p = whole_[j];
+        const label i = c.places[j];
         const morph::Vector3 here = s.row(j).transpose();
-        if (p.slides() && sliding_.follows(i) && here.norm() < farthest_)
+        if (follows(c, j, here))
         {
             start_[i] = sliding_.onto(i, toFoam(here));
             sliding_.renewDirections(i, start_[i]);
-            p = condition
+            c.whole[j] = condition
             (
-                controlled_.position(i),
-                true,
-                sliding_.normals(i),
-                start_[i]
+                controlled_.position(i), true, sliding_.normals(i), start_[i]
             );
-            candidates_[j] = restricted(p);
+            c.conditions[j] = restricted(c.whole[j]);
         }
     }
 }
 
 
-void Foam::rbfControlPoints::setDirections(const morph::Vectors& reached)
+void Foam::rbfControlPoints::setDirections
+(
+    const label regioni,
+    const morph::Vectors& reached
+)
 {
-    forAll(places_, j)
+    controlCandidates& c = candidates_[regioni];
+    forAll(c.places, j)
     {
-        const label i = places_[j];
-        morph::ControlPoint& p = whole_[j];
+        const label i = c.places[j];
+        morph::ControlPoint& p = c.whole[j];
         if (p.slides() && sliding_.follows(i))
         {
             const morph::Vector3 here = reached.row(j).transpose();
@@ -390,7 +446,7 @@ void Foam::rbfControlPoints::setDirections(const morph::Vectors& reached)
                 controlled_.position(i), true, normals, toFoam(here)
             );
             morph::slideOnto(p, here, planes);
-            candidates_[j] = restricted(p);
+            c.conditions[j] = restricted(p);
         }
     }
 }

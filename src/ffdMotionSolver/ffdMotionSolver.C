@@ -111,25 +111,16 @@ void Foam::ffdMotionSolver::initialise()
 
 void Foam::ffdMotionSolver::makeGeometry()
 {
-    plane_.reset(new planarReduction(mesh(), points0()));
+    reduced_.reset(new reducedMesh(mesh(), points0()));
     symmetry_.reset(new symmetryPlanes(mesh(), points0()));
-    coupled_ = cyclicCopies::New
-    (
-        mesh(),
-        points0(),
-        meshImages
-        (
-            mesh(), points0(), plane_(), labelHashSet(), labelHashSet(),
-            pointField()
-        )
-    );
 
+    const planarReduction& plane = reduced_->plane();
     pointField positions(mesh().nPoints());
     forAll(positions, pointi)
     {
-        positions[pointi] = plane_->position
+        positions[pointi] = plane.position
         (
-            points0()[plane_->representative()[pointi]]
+            points0()[plane.representative()[pointi]]
         );
     }
     boxes_.setPoints(positions, mesh().edges());
@@ -217,7 +208,7 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
     const scalar largest = gMax(mag(displacement));
 
     const scalar normal = symmetry_->impose(displacement);
-    if (normal > 1e-6*largest)
+    if (normal > cyclicCopies::tolerance*largest)
     {
         WarningInFunction
             << "Points of symmetry patches are moved off their plane, by up to "
@@ -225,8 +216,8 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
             << "    Let the lattice move along the plane there" << endl;
     }
 
-    const scalar difference = coupled_->match(displacement);
-    if (difference > 1e-6*largest)
+    const scalar difference = reduced_->match(displacement);
+    if (difference > cyclicCopies::tolerance*largest)
     {
         WarningInFunction
             << "Coupled cyclic points are moved differently, by up to "
@@ -239,24 +230,16 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
 
 Foam::vectorField Foam::ffdMotionSolver::displacement()
 {
-    const vectorField inPlane(boxes_.displacement());
-
-    const scalar nowhere = 1e-10*mesh().bounds().mag();
-    vectorField displacement(mesh().nPoints());
-    forAll(displacement, pointi)
+    vectorField inPlane(boxes_.displacement());
+    const planarReduction& plane = reduced_->plane();
+    forAll(inPlane, pointi)
     {
-        const label from = plane_->representative()[pointi];
-        const point& x = points0()[pointi];
-        vector d = plane_->reduce
+        inPlane[pointi] = reduced_->reduce
         (
-            plane_->position(points0()[from]), inPlane[from]
+            plane.position(points0()[pointi]), inPlane[pointi]
         );
-        if (plane_->onAxis(x, nowhere))
-        {
-            d -= (d & plane_->radial())*plane_->radial();
-        }
-        displacement[pointi] = plane_->expand(x, d);
     }
+    vectorField displacement(reduced_->expand(inPlane));
     constrain(displacement);
     return displacement;
 }
@@ -272,7 +255,7 @@ Foam::tmp<Foam::pointField> Foam::ffdMotionSolver::curPoints() const
 
 void Foam::ffdMotionSolver::solve()
 {
-    const bool first = !plane_.valid();
+    const bool first = !reduced_.valid();
     if (first)
     {
         makeGeometry();
@@ -303,9 +286,8 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 {
     displacementMotionSolver::updateMesh(map);
 
-    plane_.clear();
+    reduced_.clear();
     symmetry_.clear();
-    coupled_.clear();
 }
 
 

@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "surfaceNormals.H"
+#include "eigenFields.H"
 #include "ListOps.H"
 #include "PstreamReduceOps.H"
 
@@ -21,7 +22,7 @@ static const scalar opposite = 0.02;
 static const scalar straight = 0.8;
 
 
-static bool before
+static bool taggedBefore
 (
     const surfaceNormals::taggedNormal& a,
     const surfaceNormals::taggedNormal& b
@@ -30,11 +31,7 @@ static bool before
     return
         a.normal == b.normal
       ? a.surface < b.surface
-      : std::lexicographical_compare
-        (
-            a.normal.cdata(), a.normal.cdata() + 3,
-            b.normal.cdata(), b.normal.cdata() + 3
-        );
+      : before(a.normal, b.normal);
 }
 
 
@@ -136,7 +133,7 @@ Foam::List<Foam::surfaceNormals::taggedNormal> Foam::surfaceNormals::distinct
 )
 {
     // One order, whichever rank has which faces
-    std::sort(normals.begin(), normals.end(), before);
+    std::sort(normals.begin(), normals.end(), taggedBefore);
 
     DynamicList<taggedNormal> first;
     DynamicList<vector> sum;

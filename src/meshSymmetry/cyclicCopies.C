@@ -25,15 +25,6 @@ struct untransformed
 };
 
 
-static bool earlier(const point& a, const point& b)
-{
-    return std::lexicographical_compare
-    (
-        a.cdata(), a.cdata() + 3, b.cdata(), b.cdata() + 3
-    );
-}
-
-
 // The rotation of the map that brings one position to the other
 static tensor rotationBetween
 (
@@ -143,7 +134,7 @@ void Foam::cyclicCopies::findCopies(const morph::ImageGroup& periods)
         {
             positions[j] = pairs[i][2*j];
         }
-        std::sort(positions.begin(), positions.end(), earlier);
+        std::sort(positions.begin(), positions.end(), before);
         for (const point& x : positions)
         {
             const bool known =

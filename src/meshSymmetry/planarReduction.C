@@ -8,6 +8,18 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "wedgePolyPatch.H"
 #include "foamCompat.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Points this close to the axis of a wedge, in units of the mesh's size, are on
+// it
+static const scalar samePlace = 1e-8;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::planarReduction::planarReduction
@@ -21,6 +33,7 @@ Foam::planarReduction::planarReduction
     normal_(Zero),
     axis_(Zero),
     radial_(Zero),
+    axisTolerance_(samePlace*boundBox(points, true).mag()),
     representative_(identity(points.size()))
 {
     bool wedge = false;
@@ -195,6 +208,17 @@ Foam::vector Foam::planarReduction::reduce
 }
 
 
+Foam::vector Foam::planarReduction::reduceMotion
+(
+    const point& x,
+    const vector& d
+) const
+{
+    const vector inPlane = reduce(x, d);
+    return onAxis(x) ? inPlane - (inPlane & radial_)*radial_ : inPlane;
+}
+
+
 Foam::vector Foam::planarReduction::expand
 (
     const point& x,
@@ -208,15 +232,11 @@ Foam::vector Foam::planarReduction::expand
 }
 
 
-bool Foam::planarReduction::onAxis
-(
-    const point& x,
-    const scalar tolerance
-) const
+bool Foam::planarReduction::onAxis(const point& x) const
 {
     return
         kind_ == kind::wedge
-     && ((position(x) - origin_) & radial_) < tolerance;
+     && ((position(x) - origin_) & radial_) < axisTolerance_;
 }
 
 

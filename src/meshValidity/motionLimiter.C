@@ -10,6 +10,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "cellSet.H"
 #include "foamVtkSurfaceWriter.H"
 #include "OSspecific.H"
+#include "StringStream.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -169,14 +170,14 @@ Foam::scalar Foam::motionLimiter::apply
     {
         return 1;
     }
-    const scalar moved =
-        limitPart(reference, displacement, {0, 1, 1}, remedy);
-    displacement *= moved;
-    return moved;
+    const limit found = limitPart(reference, displacement, {0, 1, 1}, remedy);
+    displacement *= found.fraction;
+    note(found, found.fraction);
+    return found.fraction;
 }
 
 
-Foam::scalar Foam::motionLimiter::limitPart
+Foam::motionLimiter::limit Foam::motionLimiter::limitPart
 (
     const pointField& reference,
     const vectorField& displacement,
@@ -196,17 +197,29 @@ Foam::scalar Foam::motionLimiter::limitPart
         of.from > 0
       ? (1 - validFraction::margin)*attainable
       : of.to*fraction.withMargin();
-    Info<< "onInvalidMesh limit: the motion is limited to the fraction "
-        << moved << " of it. It is valid up to " << attainable
+    OStringStream why;
+    why << "It is valid up to " << attainable
         << ", where the first cell breaks at " << fraction.where() << " ("
         << validFraction::criterionNames[fraction.stoppedBy()]
-        << "); beyond, it makes " << fraction.whole() << endl;
+        << "); beyond, it makes " << fraction.whole();
     motionRecord* record = motionRecord::of(mesh_);
     if (record)
     {
         record->note(fraction, attainable, moved, of.nSteps);
     }
-    return moved;
+    return {moved, why.str()};
+}
+
+
+void Foam::motionLimiter::note(const limit& found, const scalar made) const
+{
+    Info<< "onInvalidMesh limit: the motion is limited to the fraction "
+        << made << " of it. " << found.why.c_str() << endl;
+    motionRecord* record = motionRecord::of(mesh_);
+    if (record)
+    {
+        record->set("moved", made);
+    }
 }
 
 
@@ -218,7 +231,7 @@ void Foam::motionLimiter::report(const validFraction& fraction)
         writeCellSet(fraction.mesh(), fraction.cells());
         writeCellFaces(fraction);
 
-        // Who goes on to an error ends the other ranks: not while they write
+        // Synchronise first: a failing rank aborts ranks that are still writing
         returnReduce(true, andOp<bool>());
     }
 }

@@ -7,7 +7,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "IOstreams.H"
 
 #include <cstdio>
-#include <numeric>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -29,8 +28,6 @@ static string rounded(const scalar x)
 
 Foam::motionSummary::motionSummary()
 :
-    ofStep_(Zero),
-    ofAll_(Zero),
     nSteps_(0),
     nSelections_(0),
     nSelected_(0),
@@ -42,12 +39,12 @@ Foam::motionSummary::motionSummary()
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::motionSummary::write(Ostream& os, const times& t)
+void Foam::motionSummary::write(Ostream& os, const motionTimes& t)
 {
-    static const char* const names[nPhases] =
+    static const char* const names[motionTimes::nPhases] =
         {"conditions", "selection", "propagation", "mesh check"};
 
-    for (label i = 0; i < nPhases; ++i)
+    for (label i = 0; i < motionTimes::nPhases; ++i)
     {
         os  << (i ? ", " : "") << names[i] << ' ' << rounded(t[i]).c_str()
             << " s";
@@ -58,35 +55,32 @@ void Foam::motionSummary::write(Ostream& os, const times& t)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::motionSummary::startStep()
+void Foam::motionSummary::add(const motionTimes& t)
 {
     ++nSteps_;
-    ofStep_ = Zero;
-    step_.timeIncrement();
+    ofStep_ = t;
+    ofAll_ += t;
 }
 
 
-void Foam::motionSummary::add(const phase p)
+void Foam::motionSummary::add(const rbfMotion& motion)
 {
-    const scalar seconds = step_.timeIncrement();
-    ofStep_[p] += seconds;
-    ofAll_[p] += seconds;
-}
-
-
-void Foam::motionSummary::add
-(
-    const morph::SelectionResult& result,
-    const bool rebuild
-)
-{
-    nSelections_ += rebuild;
-    nSelected_ = result.selected;
-    nCandidates_ = result.candidates;
-    if (result.largestError >= error_)
+    add(motion.times);
+    if (motion.selections.empty())
     {
-        error_ = result.largestError;
-        displacement_ = result.largestDisplacement;
+        return;
+    }
+    nSelected_ = nCandidates_ = 0;
+    for (const rbfMotion::selection& s : motion.selections)
+    {
+        nSelections_ += s.nSelections;
+        nSelected_ += s.most;
+        nCandidates_ += s.worst.candidates;
+        if (s.worst.largestError >= error_)
+        {
+            error_ = s.worst.largestError;
+            displacement_ = s.worst.largestDisplacement;
+        }
     }
 }
 
@@ -104,12 +98,16 @@ void Foam::motionSummary::write(Ostream& os, const word& solver) const
     {
         return;
     }
-    const scalar motion =
-        std::accumulate(ofAll_.begin(), ofAll_.end(), scalar(0));
+    scalar motion = 0;
+    for (label i = 0; i < motionTimes::nPhases; ++i)
+    {
+        motion += ofAll_[i];
+    }
     const scalar run = run_.elapsedTime();
     os  << nl << solver.c_str() << ": " << nSteps_ << " steps, "
-        << nSelections_ << " selections, " << nSelected_ << " of "
-        << nCandidates_ << " control points," << nl
+        << nSelections_ << (nSelections_ == 1 ? " selection, " : " selections, ")
+        << nSelected_ << " of " << nCandidates_
+        << (nCandidates_ == 1 ? " control point," : " control points,") << nl
         << "    largest error " << rounded(error_).c_str()
         << " m of a displacement of " << rounded(displacement_).c_str()
         << " m" << nl

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "foamCompat.H"
 #include "positionTable.H"
+#include "SubField.H"
 #include "Time.H"
 #include "Tuple2.H"
 
@@ -38,10 +39,7 @@ struct nearerEqOp
             b.first() < a.first()
          || (
                 b.first() == a.first()
-             && std::lexicographical_compare
-                (
-                    y.cdata(), y.cdata() + 3, x.cdata(), x.cdata() + 3
-                )
+             && before(y, x)
             )
         )
         {
@@ -88,7 +86,27 @@ Foam::rbfMotionState::rbfMotionState(const polyMesh& mesh)
         // Its numbers are text in binary files as well
         ITstream& is = lookup("controlPoints");
         is.format(IOstream::ASCII);
-        is >> positions_;
+        const pointField all(is);
+
+        // One size for each region, if there is more than one
+        const labelList sizes
+        (
+            getOrDefault<labelList>("regionSizes", labelList(1, all.size()))
+        );
+        label start = 0;
+        for (const label size : sizes)
+        {
+            if (size < 0 || size > all.size() - start)
+            {
+                FatalIOErrorInFunction(*this)
+                    << "Entry 'regionSizes' does not add up to the "
+                    << all.size() << " 'controlPoints'" << nl
+                    << "    The file is damaged: restore it, or remove it to"
+                    << " let the run select anew" << nl << exit(FatalIOError);
+            }
+            positions_.append(pointField(SubField<point>(all, size, start)));
+            start += size;
+        }
     }
     dictionary::clear();
 }
@@ -98,13 +116,16 @@ Foam::rbfMotionState::rbfMotionState(const polyMesh& mesh)
 
 void Foam::rbfMotionState::setPositions
 (
+    const label regioni,
     const std::vector<morph::Vector3>& positions
 )
 {
-    positions_.setSize(positions.size());
-    forAll(positions_, i)
+    positions_.setSize(max(positions_.size(), regioni + 1));
+    pointField& mine = positions_[regioni];
+    mine.setSize(positions.size());
+    forAll(mine, i)
     {
-        positions_[i] = toFoam(positions[i]);
+        mine[i] = toFoam(positions[i]);
     }
 }
 
@@ -119,22 +140,28 @@ bool Foam::rbfMotionState::wasWritten()
 
 std::vector<morph::Vector3> Foam::rbfMotionState::positionsAmong
 (
+    const label regioni,
     const morph::ControlPoints& controlPoints
 ) const
 {
+    if (regioni >= positions_.size() || positions_[regioni].empty())
+    {
+        return std::vector<morph::Vector3>();
+    }
+    const pointField& written = positions_[regioni];
     List<nearPosition> nearest
     (
-        positions_.size(), nearPosition(GREAT, point::uniform(GREAT))
+        written.size(), nearPosition(GREAT, point::uniform(GREAT))
     );
-    const positionTable table(positions_);
-    const scalar tolerance = writeTolerance*largestCoordinate(positions_);
+    const positionTable table(written);
+    const scalar tolerance = writeTolerance*largestCoordinate(written);
     for (const morph::ControlPoint& p : controlPoints)
     {
         const point x(toFoam(p.position));
         const label i = table.find(x, tolerance);
         if (i >= 0)
         {
-            nearerEqOp()(nearest[i], nearPosition(mag(x - positions_[i]), x));
+            nearerEqOp()(nearest[i], nearPosition(mag(x - written[i]), x));
         }
     }
     foamCompat::allCombineList(nearest, nearerEqOp());
@@ -166,11 +193,23 @@ bool Foam::rbfMotionState::writeData(Ostream& os) const
     const int precision = os.precision(std::numeric_limits<scalar>::max_digits10);
     os.writeKeyword("supportRadius") << supportRadius_
         << token::END_STATEMENT << nl << nl;
-    os.writeKeyword("controlPoints") << nl << positions_.size() << nl
-        << token::BEGIN_LIST << nl;
-    for (const point& x : positions_)
+    labelList sizes(positions_.size());
+    forAll(sizes, i)
     {
-        os  << x << nl;
+        sizes[i] = positions_[i].size();
+    }
+    if (sizes.size() > 1)
+    {
+        os.writeEntry("regionSizes", sizes);
+    }
+    os.writeKeyword("controlPoints") << nl << sum(sizes) << nl
+        << token::BEGIN_LIST << nl;
+    for (const pointField& positions : positions_)
+    {
+        for (const point& x : positions)
+        {
+            os  << x << nl;
+        }
     }
     os  << token::END_LIST << token::END_STATEMENT << nl;
     os.precision(precision);

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "selectionReport.H"
 #include "movedGeometry.H"
+#include "StringStream.H"
 #include "syncTools.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -45,15 +46,12 @@ void Foam::selectionReport::findFirstCellHeight(const pointField& points0)
 }
 
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::selectionReport::summary
-(
-    const morph::SelectionResult& result
-) const
+void Foam::selectionReport::summary(const morph::SelectionResult& result)
 {
     Info<< "rbfMotionSolver: selected " << label(result.selected)
-        << " of " << label(result.candidates) << " control points, largest error "
+        << " of " << label(result.candidates)
+        << (result.candidates == 1 ? " control point" : " control points")
+        << ", largest error "
         << result.largestError << " (tolerance " << result.tolerance
         << "), selection "
         << result.sweepTime + result.listTime + result.solveTime << " s"
@@ -76,26 +74,28 @@ void Foam::selectionReport::warnOfTolerance
      && result.largestError < 1e-12*mesh_.bounds().mag();
     if (!result.converged() && incomplete && !onSurface)
     {
-        WarningInFunction
-            << "The largest error, " << result.largestError
-            << " m, exceeds the tolerance of " << result.tolerance << " m: ";
+        OStringStream why;
         if (result.rejected > 0)
         {
-            Info<< label(result.rejected) << " control points are too close"
+            why << label(result.rejected) << " control points are too close"
                 << " to others for a support radius of " << supportRadius
-                << " m" << nl << "    Reduce the support radius" << endl;
+                << " m" << nl << "    Reduce the support radius";
         }
         else if (result.selected >= settings_.selection.maxPoints)
         {
-            Info<< "greedy/maxPoints is reached" << nl
-                << "    Raise it, or the tolerance" << endl;
+            why << "greedy/maxPoints is reached" << nl
+                << "    Raise it, or the tolerance";
         }
         else
         {
-            Info<< "points that slide do not come nearer to their surface"
+            why << "points that slide do not come nearer to their surface"
                 << nl << "    Make the motion smaller, or the surface smoother:"
-                << " along an edge of it only its own points can slide" << endl;
+                << " along an edge of it only its own points can slide";
         }
+        WarningInFunction
+            << "The largest error, " << result.largestError
+            << " m, exceeds the tolerance of " << result.tolerance << " m: "
+            << why.str().c_str() << endl;
     }
     if (result.roundOff > 0.1*result.tolerance)
     {
@@ -110,26 +110,26 @@ void Foam::selectionReport::warnOfTolerance
 
 void Foam::selectionReport::warnOfFirstCells
 (
-    const pointField& points0,
-    const labelList& meshPoints,
-    const std::vector<double>& errors,
-    const scalar largestDisplacement
+    const rbfMotionProblem& problem,
+    const rbfMotion::selection& made
 )
 {
     // Negative where there is no control point. Of points that ranks share one
     // of them has the candidate
     scalarField error(mesh_.nPoints(), -1);
+    const labelList& meshPoints =
+        problem.controlPoints().candidates(made.region).meshPoints;
     forAll(meshPoints, i)
     {
         if (meshPoints[i] >= 0)
         {
-            error[meshPoints[i]] = errors[i];
+            error[meshPoints[i]] = made.last->errors()[i];
         }
     }
     syncTools::syncPointList(mesh_, error, maxEqOp<scalar>(), scalar(-1));
     if (firstCellHeight_.empty())
     {
-        findFirstCellHeight(points0);
+        findFirstCellHeight(problem.points0());
     }
 
     scalar worst = 0;
@@ -176,22 +176,45 @@ void Foam::selectionReport::warnOfFirstCells
             << nl << "    The patch itself moves exactly; the cells at it"
             << " would with 'surfaceCorrection yes'," << nl
             << "    or with greedy/tolerance "
-            << allowed/largestDisplacement << endl;
+            << allowed/made.worst.largestDisplacement << endl;
     }
 }
 
 
-void Foam::selectionReport::debugInfo
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::selectionReport::write
 (
-    const morph::SelectionResult& result,
-    const morph::Communicator& communicator
-) const
+    const rbfMotionProblem& problem,
+    const rbfMotion& motion
+)
 {
-    Info<< "rbfMotionSolver: sweep " << result.sweepTime << " s, list "
-        << result.listTime << " s, solve " << result.solveTime << " s, "
-        << label(result.sweeps) << " sweeps, "
-        << label(communicator.operations()) << " collectives, "
-        << communicator.bytes() << " B" << endl;
+    for (const rbfMotion::selection& made : motion.selections)
+    {
+        if (made.report)
+        {
+            summary(made.worst);
+            warnOfTolerance(made.worst, problem.radius());
+            if (!settings_.surfaceCorrection)
+            {
+                warnOfFirstCells(problem, made);
+            }
+        }
+    }
+}
+
+
+void Foam::selectionReport::debugInfo(const rbfMotion& motion)
+{
+    for (const rbfMotion::selection& made : motion.selections)
+    {
+        const morph::SelectionResult& result = made.worst;
+        Info<< "rbfMotionSolver: sweep " << result.sweepTime << " s, list "
+            << result.listTime << " s, solve " << result.solveTime << " s, "
+            << label(result.sweeps) << " sweeps, "
+            << made.collectives << " collectives, "
+            << made.bytes << " B" << endl;
+    }
 }
 
 

@@ -5,139 +5,211 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "subSteppedMotion.H"
 #include "eigenFields.H"
-#include "invalidMotion.H"
 #include "pstreamCommunicator.H"
+#include "subStep.hpp"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// How often a part of a motion is made shorter, each time by a tenth
+static const label mostTries = 32;
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::subSteppedMotion::subSteppedMotion
-(
-    const polyMesh& mesh,
-    const pointField& points0,
-    const planarReduction& plane,
-    rbfControlPoints& controlPoints,
-    const labelList& evaluated,
-    const morph::SubStepSettings& settings,
-    const morph::GreedySelection::Renewal& renewal,
-    const constraint& constrain,
-    const expansion& expand
-)
+Foam::subSteppedMotion::subSteppedMotion(rbfMotionProblem& problem)
 :
-    mesh_(mesh),
-    points0_(points0),
-    plane_(plane),
-    controlPoints_(controlPoints),
-    evaluated_(evaluated),
-    settings_(settings),
-    renewal_(renewal),
-    constrain_(constrain),
-    expand_(expand),
-    nMade_(0),
-    fewest_(0),
-    most_(0)
+    problem_(problem)
 {}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-morph::Vectors Foam::subSteppedMotion::reachedByControlPoints
+morph::Vectors Foam::subSteppedMotion::reachedByCandidates
 (
-    const scalar fraction
+    const label regioni,
+    const rbfMotion& motion
 ) const
 {
-    const morph::ControlPoints& conditions = controlPoints_.candidates();
-    const labelList& meshPoints = controlPoints_.candidatePoints();
+    const controlCandidates& candidates =
+        problem_.controlPoints().candidates(regioni);
+    const scalar fraction = scalar(motion.nMade)/motion.nSteps;
 
     // Those off the mesh are prescribed
-    morph::Vectors reached(conditions.size(), 3);
-    forAll(meshPoints, i)
+    morph::Vectors reached(candidates.size(), 3);
+    forAll(candidates.meshPoints, i)
     {
+        const label pointi = candidates.meshPoints[i];
         const morph::Vector3 s =
-            meshPoints[i] < 0
-          ? morph::Vector3(fraction*conditions[i].value)
-          : toEigen(reached_[meshPoints[i]]);
+            pointi < 0
+          ? morph::Vector3(fraction*candidates.conditions[i].value)
+          : toEigen(motion.inPlane[pointi]);
         reached.row(i) = s.transpose();
     }
     return reached;
 }
 
 
-Foam::vectorField Foam::subSteppedMotion::next(const label n)
+std::vector<Foam::subSteppedMotion::moving>
+Foam::subSteppedMotion::findMoving() const
 {
-    pointField positions(evaluated_.size());
-    forAll(evaluated_, i)
+    std::vector<moving> parts;
+    for (label i = 0; i < problem_.reduced().nRegions(); ++i)
     {
-        const label pointi = evaluated_[i];
-        positions[i] = plane_.position(points0_[pointi]) + reached_[pointi];
+        if (problem_.moves(i))
+        {
+            const scalar largest = problem_.controlPoints().largestValue(i);
+            parts.push_back({i, problem_.images().inReach(largest)});
+        }
+    }
+    return parts;
+}
+
+
+void Foam::subSteppedMotion::addStep
+(
+    const moving& part,
+    rbfMotion& motion,
+    vectorField& inPlane
+) const
+{
+    const label regioni = part.region;
+    const reducedMesh& reduced = problem_.reduced();
+    const labelList& evaluated = reduced.independent(regioni);
+    pointField positions(reduced.positions(regioni));
+    forAll(evaluated, i)
+    {
+        positions[i] += motion.inPlane[evaluated[i]];
     }
 
     // On curved surfaces conditions turn with the points
-    const morph::Vectors reached =
-        reachedByControlPoints(scalar(nMade_)/n);
-    controlPoints_.setDirections(reached);
+    rbfControlPoints& controlPoints = problem_.controlPoints();
+    const morph::Vectors reached = reachedByCandidates(regioni, motion);
+    controlPoints.setDirections(regioni, reached);
 
-    pstreamCommunicator communicator;
-    morph::SelectionResult result;
-    const morph::Vectors s = morph::subStep
-    (
-        settings_,
-        controlPoints_.candidates(),
-        reached,
-        n - nMade_,
-        renewal_,
-        asVectors(positions),
-        communicator,
-        result
-    );
-    fewest_ = nMade_ ? min(fewest_, label(result.selected)) : result.selected;
-    most_ = nMade_ ? max(most_, label(result.selected)) : result.selected;
-
-    vectorField moved(reached_);
-    forAll(evaluated_, i)
+    const morph::SubStepSettings settings
     {
-        moved[evaluated_[i]] += toFoam(s.row(i).transpose());
+        problem_.kernel(),
+        problem_.settings().polynomial,
+        problem_.settings().selection,
+        problem_.correctionRadius(),
+        part.images
+    };
+    pstreamCommunicator communicator;
+    const morph::SubStep step = morph::subStep
+    (
+        settings,
+        controlPoints.candidates(regioni).conditions,
+        reached,
+        motion.nSteps - motion.nMade,
+        problem_.renewal(regioni),
+        asVectors(positions),
+        communicator
+    );
+    motion.add
+    (
+        regioni,
+        step.result,
+        step.selection,
+        step.candidates,
+        communicator,
+        true
+    );
+    forAll(evaluated, i)
+    {
+        inPlane[evaluated[i]] += toFoam(step.displacements.row(i).transpose());
     }
-    constrain_(moved, scalar(nMade_ + 1)/n);
-    return moved;
+}
+
+
+Foam::vectorField Foam::subSteppedMotion::next
+(
+    const std::vector<moving>& parts,
+    rbfMotion& motion
+) const
+{
+    vectorField inPlane(motion.inPlane);
+    try
+    {
+        for (const moving& part : parts)
+        {
+            addStep(part, motion, inPlane);
+        }
+    }
+    catch (const std::exception& wrong)
+    {
+        FatalIOErrorInFunction(problem_.dict())
+            << wrong.what() << nl << exit(FatalIOError);
+    }
+    motion.times.lap(motionTimes::selection);
+    problem_.constrain(inPlane, scalar(motion.nMade + 1)/motion.nSteps);
+    motion.times.lap(motionTimes::propagation);
+    return inPlane;
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::subSteppedMotion::run
+Foam::rbfMotion Foam::subSteppedMotion::move
 (
     const label n,
     const bool check,
     const scalar fraction
-)
+) const
 {
-    nMade_ = 0;
-    reached_.setSize(mesh_.nPoints());
-    reached_ = Zero;
-
-    while (nMade_ < fraction*n)
+    const std::vector<moving> parts(findMoving());
+    rbfMotion motion(n);
+    motion.inPlane = vectorField(problem_.points0().size(), Zero);
+    while (motion.nMade < fraction*n)
     {
-        vectorField moved(next(n));
-        const scalar part = fraction*n - nMade_;
+        vectorField inPlane(next(parts, motion));
+        const scalar part = fraction*n - motion.nMade;
         if (part < 1)
         {
-            moved = reached_ + part*(moved - reached_);
-            constrain_(moved, fraction);
+            inPlane = motion.inPlane + part*(inPlane - motion.inPlane);
+            problem_.constrain(inPlane, fraction);
         }
 
-        if (check)
+        const bool valid =
+            !check
+         || problem_.isValid(problem_.reduced().expand(inPlane)());
+        motion.times.lap(motionTimes::meshCheck);
+        if (!valid)
         {
-            const pointField points(points0_ + expand_(moved));
-            if (!invalidMotion(mesh_, points0_, points).empty())
-            {
-                increment_ = moved - reached_;
-                return false;
-            }
+            motion.increment = inPlane - motion.inPlane;
+            break;
         }
-        reached_.transfer(moved);
-        ++nMade_;
+        motion.inPlane.transfer(inPlane);
+        ++motion.nMade;
     }
-    return true;
+    motion.fraction = min(fraction, scalar(motion.nMade)/n);
+    motion.displacement = problem_.reduced().expand(motion.inPlane);
+    return motion;
+}
+
+
+void Foam::subSteppedMotion::makePart
+(
+    rbfMotion& motion,
+    const scalar fraction
+) const
+{
+    scalar part = fraction;
+    for (label i = 0; i < mostTries; ++i)
+    {
+        rbfMotion shorter(move(motion.nSteps, true, part));
+        shorter.times += motion.times;
+        motion = shorter;
+        if (motion.increment.empty())
+        {
+            return;
+        }
+        part *= 0.9;
+    }
 }
 
 

@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "gatheredFaces.H"
+#include "eigenFields.H"
 #include "foamCompat.H"
 #include "ListOps.H"
 
@@ -243,11 +244,7 @@ void Foam::gatheredFaces::mergePoints
         order.end(),
         [&](const label a, const label b)
         {
-            return std::lexicographical_compare
-            (
-                all[a].cdata(), all[a].cdata() + 3,
-                all[b].cdata(), all[b].cdata() + 3
-            );
+            return before(all[a], all[b]);
         }
     );
 

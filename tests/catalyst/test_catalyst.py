@@ -137,6 +137,18 @@ def merged(parts, path):
                    for name in blocks[0]["values"]}}
 
 
+def test_control_points_of_several_steps_arrive(tmp_path):
+    # Source of truth: morphMesh of one step has the same candidates
+    case = in_situ_case(tmp_path)
+    text = (case.path/"constant/dynamicMeshDict").read_text()
+    (case.path/"constant/dynamicMeshDict").write_text(
+        text.replace("supportRadius", "subSteps 3; supportRadius"))
+    run(case, "moveDynamicMesh")
+    last = records(case)[-1][0]
+    shown = last["/controlPoints"]
+    assert shown["cells"] == 50 and sum(shown["values"]["selected"]) > 0
+
+
 @pytest.fixture(scope="module", params=[1, 2])
 def recorded(request, tmp_path_factory):
     case = in_situ_case(tmp_path_factory.mktemp("inSitu")/"case")

@@ -100,7 +100,7 @@ def test_the_log_has_one_line_for_each_selection(tmp_path):
     assert len(re.findall(SELECTED, output, re.MULTILINE)) == 1
     # That, and what the motion took at the end of the run
     assert output.count("rbfMotionSolver:") == 2
-    assert "rbfMotionSolver: 3 steps, 1 selections" in output
+    assert "rbfMotionSolver: 3 steps, 1 selection," in output
 
 
 def test_debug_adds_the_times_of_every_step(tmp_path):

@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from boxCase import write_control
-from rbfCase import groups, points_at, rbf_case, reference, ulps
+from rbfCase import (groups, points_at, rbf_case, reference, selections,
+                     ulps)
 
 CELLS = (10, 3, 3)
 
@@ -124,6 +125,64 @@ def test_a_restart_continues_the_uninterrupted_run(tmp_path):
     write_control(parts, end=2, startFrom="latestTime")
     parts.run("moveDynamicMesh")
     assert np.array_equal(points_at(parts, "2"), points_at(whole, "2"))
+
+
+COARSE = "subSteps 4; greedy { maxPoints 12; } supportRadius 1.2;" + middle(
+    [(0, 0), (1, 0.2), (2, 0.3)])
+
+SHOWN = ("functions { controls { type motionControls;"
+         " libs (morphMotionSolvers); writeControl writeTime; } }\n")
+
+
+def test_the_log_says_of_several_steps_what_it_says_of_one(tmp_path):
+    # The counts follow from what the entries allow: 12 points in each of the
+    # 4 sub-steps of 2 time steps
+    case = rbf_case(tmp_path, coeffs=COARSE, cells=CELLS, control={"end": 2})
+    output = case.run("moveDynamicMesh")
+    assert [n for n, *_ in selections(output)] == [12, 12]
+    assert steps(output) == [4, 4]
+    warnings = re.findall(r"The largest error, (\S+) m, exceeds the tolerance"
+                          r" of (\S+) m:\s+greedy/maxPoints is reached", output)
+    assert len(warnings) == 2
+    assert all(float(error) > float(limit) for error, limit in warnings)
+    summary, = re.findall(
+        r"rbfMotionSolver: 2 steps, 8 selections, 12 of (\d+) control points,\s+"
+        r"largest error (\S+) m of a displacement of (\S+) m", output)
+    of, error, displacement = map(float, summary)
+    assert of > 100 and 0 < error < displacement < 0.1
+
+
+def points_of(path):
+    """The control points of a VTK file, and which are selected."""
+    words = path.read_text().split()
+    at = words.index("POINTS")
+    n = int(words[at + 1])
+    x = np.array(words[at + 3:at + 3 + 3*n], float).reshape(n, 3)
+    at = words.index("selected")
+    return x, np.array(words[at + 4:at + 4 + n], float)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_the_control_points_of_several_steps_are_shown(tmp_path, ranks):
+    case = rbf_case(tmp_path, coeffs=COARSE, cells=CELLS)
+    control = case.path/"system/controlDict"
+    control.write_text(control.read_text() + SHOWN)
+    if ranks > 1:
+        case.decompose((ranks, 1, 1))
+    case.run("moveDynamicMesh", ranks=ranks)
+    x, selected = points_of(
+        case.path/"postProcessing/controls/1/controlPoints.vtk")
+    assert selected.sum() == 12
+    # The sheet is where it was told to go
+    assert (np.abs(x[:, 0] - 0.7) < 1e-12).sum() == 16
+
+
+def test_morphMesh_shows_the_control_points_of_several_steps(tmp_path):
+    case = rbf_case(tmp_path, coeffs=COARSE, cells=CELLS)
+    case.run("morphMesh", "-time", "1", "-lattice")
+    shown, = case.path.glob("postProcessing/morphMesh/1/controls/controlPoints.vtk")
+    x, selected = points_of(shown)
+    assert len(x) > 100 and selected.sum() == 12
 
 
 def record(case):

@@ -91,15 +91,6 @@ ControlPoint ControlPoint::sliding
 }
 
 
-bool before(const Vector3& a, const Vector3& b)
-{
-    return std::lexicographical_compare
-    (
-        a.data(), a.data() + 3, b.data(), b.data() + 3
-    );
-}
-
-
 Columns positions(const ControlPoints& points)
 {
     Columns x(points.size(), 3);

@@ -8,6 +8,7 @@
 #define morph_controlPoints_hpp
 
 #include "arrays.hpp"
+#include "pointOrder.hpp"
 
 #include <Eigen/StdVector>
 
@@ -71,10 +72,6 @@ struct ControlPoint
 };
 
 using ControlPoints = std::vector<ControlPoint>;
-
-// A total order by position: decides between equals in the same way wherever
-// the points are
-bool before(const Vector3& a, const Vector3& b);
 
 // The positions as columns
 Columns positions(const ControlPoints& points);

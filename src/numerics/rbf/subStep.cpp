@@ -9,7 +9,7 @@
 namespace morph
 {
 
-Vectors subStep
+SubStep subStep
 (
     const SubStepSettings& settings,
     const ControlPoints& conditions,
@@ -17,8 +17,7 @@ Vectors subStep
     const int steps,
     const GreedySelection::Renewal& renewal,
     const Vectors& positions,
-    Communicator& communicator,
-    SelectionResult& result
+    Communicator& communicator
 )
 {
     ControlPoints whole = conditions;
@@ -37,11 +36,13 @@ Vectors subStep
     }
     divide();
 
-    GreedySelection selection
+    SubStep step;
+    const auto selection = std::make_shared<GreedySelection>
     (
         settings.kernel, settings.polynomial, settings.selection,
         settings.images
     );
+    step.selection = selection;
     if (renewal)
     {
         const auto renewPart = [&](const Vectors& s, ControlPoints& points)
@@ -54,26 +55,28 @@ Vectors subStep
             }
         };
         ControlPoints candidates = part;
-        result = selection.select
+        step.result = selection->select
         (
             candidates, communicator, GreedySelection::Renewal(renewPart)
         );
     }
     else
     {
-        result = selection.select(part, communicator);
+        step.result = selection->select(part, communicator);
     }
 
-    Vectors s = selection.interpolant()(PointCloud(positions));
+    step.displacements = selection->interpolant()(PointCloud(positions));
     if (settings.correctionRadius > 0)
     {
         ExactSurface correction(settings.correctionRadius);
         correction.add
         (
-            part, selection.residuals(part), communicator, positions, s
+            part, selection->residuals(part), communicator, positions,
+            step.displacements
         );
     }
-    return s;
+    step.candidates = std::make_shared<ControlPoints>(std::move(part));
+    return step;
 }
 
 } // namespace morph

@@ -26,8 +26,21 @@ struct SubStepSettings
     ImageGroup images = ImageGroup();
 };
 
+struct SubStep
+{
+    // At the positions that were given: m x 3 [m]
+    Vectors displacements;
 
-// The displacement field of one step [m], at the given positions (m x 3).
+    SelectionResult result;
+
+    // Of the control points, with errors and weights of this step, and what
+    // it selected from: the control points where they were
+    std::shared_ptr<const GreedySelection> selection;
+    std::shared_ptr<const ControlPoints> candidates;
+};
+
+
+// One step at the given positions (m x 3).
 //
 // The control points have moved by what was reached (n x 3), and so have the
 // kernels about them: the field is one of the intermediate mesh. What each of
@@ -43,7 +56,7 @@ struct SubStepSettings
 // positions: of the points, in the intermediate mesh
 // steps: this one and those that remain
 // Throws as GreedySelection does. Collective.
-Vectors subStep
+SubStep subStep
 (
     const SubStepSettings& settings,
     const ControlPoints& conditions,
@@ -51,8 +64,7 @@ Vectors subStep
     int steps,
     const GreedySelection::Renewal& renewal,
     const Vectors& positions,
-    Communicator& communicator,
-    SelectionResult& result
+    Communicator& communicator
 );
 
 } // namespace morph

@@ -63,11 +63,12 @@ struct Motion
             }
             x.bottomRows(positions.rows()) = positions + moved;
             SelectionResult result;
-            const Vectors s = subStep
+            const SubStep made = subStep
             (
-                how, conditions, reached, n - step, renewal, x, communicator,
-                result
+                how, conditions, reached, n - step, renewal, x, communicator
             );
+            result = made.result;
+            const Vectors& s = made.displacements;
             reached += s.topRows(nc);
             moved += s.bottomRows(positions.rows());
         }

@@ -1,0 +1,119 @@
+/*---------------------------------------------------------------------------*\
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "rbfMotionProblem.H"
+#include "invalidMotion.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Largest radius of the surface correction, in support radii: about the
+// distance of selected points, over which what they leave varies
+static const scalar correctionReach = 0.1;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::rbfMotionProblem::rbfMotionProblem
+(
+    const polyMesh& mesh,
+    const dictionary& dict,
+    const pointField& points0,
+    const controlPointGroups& groups,
+    const rbfMotionSettings& settings,
+    const scalar formerRadius
+)
+:
+    mesh_(mesh),
+    dict_(dict),
+    points0_(points0),
+    settings_(settings),
+    reduced_(mesh, points0),
+    images_(mesh, dict, points0, reduced_.plane(), groups, settings.images),
+    controlPoints_
+    (
+        mesh, dict, points0, groups, reduced_, images_, settings.featureAngle
+    ),
+    radius_(settings, formerRadius),
+    span_(boundBox(points0, true).mag())
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::rbfMotionProblem::correctionRadius() const
+{
+    return settings_.surfaceCorrection ? correctionReach*radius() : 0;
+}
+
+
+Foam::rbfMotionProblem::change Foam::rbfMotionProblem::update
+(
+    const bool first,
+    const bool rebuild
+)
+{
+    change changed;
+    changed.directions = controlPoints_.update(rebuild);
+    changed.radius = radius_.update(controlPoints_);
+    if ((first || changed.radius) && !images_.reach(radius()))
+    {
+        controlPoints_.update(rebuild);
+    }
+    return changed;
+}
+
+
+bool Foam::rbfMotionProblem::moves(const label regioni) const
+{
+    // A body that is about to start moves by round-off, a pattern not worth
+    // control points
+    return
+        radius() > 0 && controlPoints_.largestValue(regioni) > SMALL*span_;
+}
+
+
+morph::GreedySelection::Renewal Foam::rbfMotionProblem::renewal
+(
+    const label regioni
+)
+{
+    if (!controlPoints_.follow())
+    {
+        return morph::GreedySelection::Renewal();
+    }
+    return [this, regioni](const morph::Vectors& s, morph::ControlPoints& c)
+    {
+        controlPoints_.renew(regioni, s, c);
+    };
+}
+
+
+void Foam::rbfMotionProblem::constrain
+(
+    vectorField& inPlane,
+    const scalar fraction
+) const
+{
+    // Elsewhere images let coupled points move alike
+    if (!images_.periodic())
+    {
+        reduced_.match(inPlane);
+    }
+    controlPoints_.impose(inPlane, settings_.exactSliding, fraction);
+}
+
+
+bool Foam::rbfMotionProblem::isValid(const vectorField& displacement) const
+{
+    return invalidMotion(mesh_, points0_, points0_ + displacement).empty();
+}
+
+
+// ************************************************************************* //
