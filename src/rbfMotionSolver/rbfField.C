@@ -26,6 +26,9 @@ static const scalar turnedCosine = 0.8;
 // Of where points that slide go roughly, in largest displacements
 static const scalar roughTolerance = 1e-2;
 
+// Points that determine a linear map
+static const morph::Index linearPoints = 4;
+
 } // End namespace Foam
 
 
@@ -35,7 +38,8 @@ Foam::rbfField::rbfField(rbfMotionProblem& problem, const label regioni)
 :
     problem_(problem),
     region_(regioni),
-    cloud_(asVectors(problem.reduced().positions(regioni)))
+    cloud_(asVectors(problem.reduced().positions(regioni))),
+    linear_(false)
 {
     if (problem.settings().surfaceCorrection)
     {
@@ -103,11 +107,61 @@ void Foam::rbfField::alignDirections(morph::Communicator& communicator)
 }
 
 
+bool Foam::rbfField::selectLinear
+(
+    morph::Communicator& communicator,
+    morph::SelectionResult& result
+)
+{
+    // A selection of more points is none of a linear map
+    const bool mayBe =
+        linear_
+     || (
+            !selection_
+         && morph::Index(restored_.size()) <= linearPoints
+         && problem_.mayFollow(region_)
+        );
+    if (!mayBe)
+    {
+        return false;
+    }
+    if (!linear_)
+    {
+        morph::SelectionSettings few(problem_.settings().selection);
+        few.maxPoints = min(few.maxPoints, linearPoints);
+        exactSurface_.reset
+        (
+            new morph::ExactSurface(problem_.correctionRadius())
+        );
+        selection_ = std::make_shared<morph::GreedySelection>
+        (
+            problem_.kernel(), morph::Polynomial::linear, few
+        );
+    }
+    result = selection_->select(candidates().conditions, communicator);
+    linear_ = result.converged();
+    if (linear_)
+    {
+        restored_.clear();
+    }
+    else
+    {
+        selection_.reset();
+    }
+    return linear_;
+}
+
+
 morph::SelectionResult Foam::rbfField::select
 (
     morph::Communicator& communicator
 )
 {
+    morph::SelectionResult result;
+    if (selectLinear(communicator, result))
+    {
+        return result;
+    }
     if (!selection_)
     {
         alignDirections(communicator);
@@ -117,8 +171,7 @@ morph::SelectionResult Foam::rbfField::select
     rbfControlPoints& controlPoints = problem_.controlPoints();
     controlCandidates& offered = controlPoints.candidates(region_);
     const morph::GreedySelection::Renewal renewal = problem_.renewal(region_);
-    morph::SelectionResult result =
-        selection_->select(offered.conditions, communicator, renewal);
+    result = selection_->select(offered.conditions, communicator, renewal);
     for (label n = 0; n < mostTurns && controlPoints.follow(); ++n)
     {
         const morph::Vectors s = atCandidates(*selection_);
@@ -154,6 +207,7 @@ void Foam::rbfField::restart(const std::vector<morph::Vector3>& positions)
 {
     restored_ = positions;
     selection_.reset();
+    linear_ = false;
 }
 
 

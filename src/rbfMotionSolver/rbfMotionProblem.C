@@ -79,6 +79,32 @@ bool Foam::rbfMotionProblem::moves(const label regioni) const
 }
 
 
+bool Foam::rbfMotionProblem::mayFollow(const label regioni) const
+{
+    if
+    (
+        reduced_.nRegions() == 1
+     || settings_.polynomialGiven
+     || settings_.selection.all
+     || settings_.selection.algorithm != morph::Algorithm::incremental
+     || images_.active()
+    )
+    {
+        return false;
+    }
+    bool slides = false;
+    for
+    (
+        const morph::ControlPoint& p
+      : controlPoints_.candidates(regioni).conditions
+    )
+    {
+        slides = slides || p.slides();
+    }
+    return !returnReduce(slides, orOp<bool>());
+}
+
+
 morph::GreedySelection::Renewal Foam::rbfMotionProblem::renewal
 (
     const label regioni

@@ -218,6 +218,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     );
     settings.polynomial =
         readPolynomial(dict, morph::Kernel(settings.kernel, 1));
+    settings.polynomialGiven = dict.found("polynomial");
 
     if (dict.found("supportRadius") && dict.found("supportRadiusFactor"))
     {
