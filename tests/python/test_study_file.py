@@ -220,3 +220,58 @@ def test_baseline_values_are_at_hand(tmp_path):
     )
     assert study.values({"x": 0.75, "y": 0})["n"] == 0.5
     assert study.baseline_values["n"] == 0
+
+
+@pytest.mark.parametrize(
+    "name", ["dict.bak", "dict~", ".dict.swp", "dict.old"]
+)
+def test_copies_that_an_editor_leaves_do_not_count(tmp_path, name):
+    path = make_study(tmp_path)
+    (tmp_path / "case/solver.sh").write_text("true")
+    (tmp_path / "case" / name).write_text('#include "parameters"\na $x $y;\n')
+    with pytest.raises(StudyError, match="no file of .* mentions parameters"):
+        check.check(read(path), quiet=True)
+
+
+def test_what_is_commented_out_does_not_count(tmp_path):
+    path = make_study(tmp_path)
+    (tmp_path / "case/solver.sh").write_text("true")
+    (tmp_path / "case/dict").write_text(
+        '#include "parameters"\na $x; // $y\n/* b $y; */\n'
+    )
+    with pytest.raises(StudyError, match="parameters/y goes nowhere"):
+        check.check(read(path), quiet=True)
+
+
+FORCES = "  f: {file: 'postProcessing/*/0/coefficient.dat', column: CL}"
+READ = "  f: {file: log.solve, regex: 'f = (\\S+)'}"
+
+
+def test_a_column_that_openfoam_does_not_write_is_named(tmp_path):
+    """forceCoeffs of v1912 writes Time Cd Cs Cl ... (coefficient.dat)."""
+    said = refused(tmp_path, (READ, FORCES))
+    assert "responses/f/column: " in said and "CL" in said and " Cl " in said
+
+
+def test_columns_are_read_where_there_are_some(tmp_path):
+    """From the template's own run, and from a finished design."""
+    table = "# Time mean max\n1 2 3\n"
+    change = (READ, FORCES.replace("coefficient.dat", "mine.dat"))
+    path = make_study(tmp_path, change)
+    check.check(read(path), quiet=True)
+    for folder in ("case", "study.study/baseline"):
+        there = tmp_path / folder / "postProcessing/a/0"
+        there.mkdir(parents=True)
+        (there / "mine.dat").write_text(table)
+        with pytest.raises(StudyError, match="no column CL.*Time mean max"):
+            check.check(read(path), quiet=True)
+        (there / "mine.dat").unlink()
+    there = tmp_path / "case/postProcessing/a/0"
+    (there / "mine.dat").write_text(table.replace("mean", "CL"))
+    check.check(read(path), quiet=True)
+
+
+def test_a_column_that_cannot_be_checked_is_said(tmp_path):
+    change = (READ, FORCES.replace("coefficient.dat", "mine.dat"))
+    said = command("check", make_study(tmp_path, change))
+    assert "column CL of" in said and "before the baseline" in said

@@ -304,3 +304,95 @@ def test_optimising_without_objectives_says_what_to_add(tmp_path):
     path.write_text(path.read_text().split("optimise:")[0])
     with pytest.raises(StudyError, match="has no optimise"):
         optimise.optimise(read(path))
+
+
+def computed(folder, objectives, *changes):
+    """A study of one strategy on a grid, as if run: f = x^2 + y, g = 1 - x y."""
+    study = read(
+        make_study(
+            folder, ("objectives: {f: minimise, g: minimise}", objectives)
+        )
+    )
+    axis = np.linspace(0, 1, 5)
+    rows = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
+    designs.add(study, rows, designs.SAMPLED)
+    for d in designs.read(study):
+        x, y = d.parameters.values()
+        write(study, "morph", d, 1, {"f": x * x + y, "g": 1 - x * y})
+    return study
+
+
+@pytest.mark.parametrize(
+    "objectives, best",
+    [
+        # f = x^2 + y is largest at (1, 1)
+        ("objectives: {f: maximise}", (1, 1)),
+        # g = 1 - x y least with x + y <= 1: at x = y = 1/2
+        ("objectives: {g: minimise}\n  constraints: [x + y <= 1]", (0.5, 0.5)),
+        # f least with g <= 0.75, x y >= 1/4: x^3 = 1/8
+        ("objectives: {f: minimise}\n  constraints: [g <= 0.75]", (0.5, 0.5)),
+    ],
+)
+def test_one_objective_has_one_optimum(tmp_path, objectives, best):
+    study = computed(tmp_path, objectives)
+    optimise.optimise(study, no_runs=True)
+    found = column(study.folder / "optimise.morph/front.csv", "x")
+    assert len(found) == 1
+    path = study.folder / "optimise.morph/representatives.csv"
+    assert [column(path, n)[0] for n in "xy"] == pytest.approx(best, abs=0.03)
+
+
+def test_objectives_that_agree_have_one_optimum(tmp_path):
+    """Both are least at the origin's corner x = 0, y = 0."""
+    study = computed(tmp_path, "objectives: {f: minimise, g: maximise}")
+    optimise.optimise(study, no_runs=True)
+    path = study.folder / "optimise.morph/representatives.csv"
+    assert [column(path, n).min() for n in "xy"] == pytest.approx(
+        [0, 0], abs=0.03
+    )
+
+
+def test_what_is_attainable_is_said_where_no_design_will_do(tmp_path):
+    """x y is at most 1, so that g = 1 - x y is at least 0."""
+    study = computed(
+        tmp_path, "objectives: {f: minimise}\n  constraints: [g <= -0.5]"
+    )
+    with pytest.raises(StudyError) as caught:
+        optimise.optimise(study, no_runs=True)
+    said = str(caught.value)
+    assert "g <= -0.5" in said and "missed by 0.5" in said
+    assert "x = 1, y = 1" in said
+
+
+def test_runs_of_optima_enter_the_fit(tmp_path):
+    study = computed(tmp_path, "objectives: {f: minimise}")
+    before = len(fit.fit(study, "morph")["f"].y)
+    (added,) = designs.add(study, [(0.33, 0.77)], designs.VERIFICATION)
+    write(study, "morph", added, 1, {"f": 9.0, "g": 0.5})
+    model = fit.fit(study, "morph")["f"]
+    assert len(model.y) == before + 1 and model.y[-1] == 9
+    path = study.folder / "fit.morph/leaveOneOut.csv"
+    with path.open() as file:
+        assert added.id in {row["design"] for row in csv.DictReader(file)}
+
+
+def test_a_design_of_the_fit_is_compared_with_a_model_without_it(tmp_path):
+    """Or the comparison would say nothing of how well the model predicts."""
+    study = computed(tmp_path, "objectives: {f: minimise}")
+    (added,) = designs.add(study, [(0.33, 0.77)], designs.VERIFICATION)
+    write(study, "morph", added, 1, {"f": 9.0, "g": 0.5})
+    found = fit.models(study, "morph")
+    (row,) = optimise.compare(study, "morph", found, [added], [0])
+    assert row["f.predicted"] == pytest.approx(found["f"].predicted[-1])
+    assert abs(row["f.predicted"] - 9) > 5
+
+
+def test_the_report_says_which_designs_are_samples(tmp_path):
+    study = computed(tmp_path, "objectives: {f: minimise}")
+    (added,) = designs.add(study, [(0.33, 0.77)], designs.VERIFICATION)
+    write(study, "morph", added, 1, {"f": 0.88, "g": 0.75})
+    fit.fit(study, "morph")
+    report.report(study)
+    page = (study.folder / "report.html").read_text()
+    assert "25 sampled and 1 verification" in page
+    assert "fitted to 26 designs" in page

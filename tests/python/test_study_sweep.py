@@ -110,7 +110,7 @@ def test_the_sweep_says_how_far_it_is(undisturbed, capsys):
     status.status(study)
     said = capsys.readouterr().out
     assert "morph: 4 done, 2 failed, 0 not finished" in said
-    assert "0002: solve: diverged" in said
+    assert "1 x solve: diverged (0002): solve: diverged" in said
     assert "remesh: 0 done, 0 failed, 6 not finished" in said
 
 

@@ -53,7 +53,8 @@ def parser():
                 nargs="+",
                 default=[],
                 metavar="ID",
-                help="make these again, or those that 'failed'",
+                help="make these again, those that 'failed', or the"
+                " 'baseline' and all that is made from it",
             )
         if verb == "optimise":
             one.add_argument(
@@ -67,10 +68,11 @@ def parser():
 
 def redo_of(words):
     try:
-        return [w if w == "failed" else int(w) for w in words]
+        return [w if w in ("failed", "baseline") else int(w) for w in words]
     except ValueError:
         raise StudyError(
-            f"-redo {' '.join(words)}: give numbers of designs," " or failed"
+            f"-redo {' '.join(words)}: give numbers of designs,"
+            " failed, or baseline"
         ) from None
 
 

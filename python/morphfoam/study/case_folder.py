@@ -4,6 +4,7 @@
 """A design's case: copied from the template or from the baseline's case, with
 the design's parameters in its dictionaries."""
 
+import datetime
 import fnmatch
 import hashlib
 import os
@@ -11,7 +12,7 @@ import re
 import shutil
 from pathlib import Path
 
-from . import foam_entry
+from . import foam_entry, outcomes
 from .errors import StudyError
 
 LEFT_BEHIND = ("processor*", "postProcessing", "log.*", "*.foam")
@@ -74,19 +75,75 @@ def template_files(study):
             yield Path(folder) / name
 
 
+def content(path):
+    """What is in a file, or of a large one (a mesh) how large it is."""
+    if path.is_symlink():
+        return os.readlink(path).encode()
+    if path.stat().st_size > HASHED:
+        return str(path.stat().st_size).encode()
+    return path.read_bytes()
+
+
+def digest(path):
+    return hashlib.sha256(content(path)).hexdigest()
+
+
 def template_hash(study):
-    """Of what is in the template's files, or of large ones (meshes) how large
-    they are."""
-    digest = hashlib.sha256()
+    """Of all that is in the template."""
+    whole = hashlib.sha256()
     for path in template_files(study):
-        digest.update(str(path.relative_to(study.template)).encode())
-        if path.is_symlink():
-            digest.update(os.readlink(path).encode())
-        elif path.stat().st_size > HASHED:
-            digest.update(str(path.stat().st_size).encode())
-        else:
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
+        whole.update(str(path.relative_to(study.template)).encode())
+        whole.update(content(path))
+    return whole.hexdigest()
+
+
+def digests(study, case):
+    """{file: digest in the template, digest of the copy}, before steps run."""
+    found = {}
+    for path in template_files(study):
+        name = str(path.relative_to(study.template))
+        found[name] = [digest(path), digest(case / name)]
+    return found
+
+
+def corrections(study, baseline):
+    """What has changed in the template since the baseline was made of it: the
+    files that designs made from now on get, and those that stay as the
+    baseline has them, because its steps changed them or they are its mesh."""
+    case = outcomes.case(study, outcomes.BASELINE)
+    corrected, kept = [], []
+    for path in template_files(study):
+        name = str(path.relative_to(study.template))
+        if name == study.parameters_file or not has_changed(
+            path, name, baseline
+        ):
+            continue
+        before = baseline.template_files.get(name)
+        own = case / name
+        theirs = "polyMesh" in path.parts
+        if before:
+            theirs |= not own.exists() or digest(own) != before[1]
+        elif baseline.template_files:
+            theirs |= own.exists()
+        (kept if theirs else corrected).append(name)
+    return corrected, kept
+
+
+def has_changed(path, name, baseline):
+    if baseline.template_files:
+        return baseline.template_files.get(name, [None])[0] != digest(path)
+    # An outcome without digests, from before there were any
+    made = datetime.datetime.fromisoformat(baseline.finished)
+    return path.lstat().st_mtime > made.timestamp()
+
+
+def copy_files(study, names, target):
+    """Files of the template into a case."""
+    for name in names:
+        own = target / name
+        own.parent.mkdir(parents=True, exist_ok=True)
+        own.unlink(missing_ok=True)
+        shutil.copy2(study.template / name, own, follow_symlinks=False)
 
 
 def copy_case(source, target):

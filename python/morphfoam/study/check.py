@@ -4,6 +4,7 @@
 """The verb check: what can be known to be wrong before anything runs."""
 
 import contextlib
+import fnmatch
 import re
 import shlex
 import subprocess
@@ -11,8 +12,21 @@ from pathlib import Path
 
 import numpy as np
 
-from . import case_folder, foam_entry, sampling
+from . import case_folder, foam_entry, outcomes, responses, sampling
 from .errors import StudyError
+
+# What editors and people leave beside a file
+BACKUPS = ("*.bak", "*~", "*.old", "*.swp", "*.save", "#*#", ".#*")
+# Of a dictionary; a text in quotes may hold what looks like one
+COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+# Columns of tables that have the same in every case
+COLUMNS = {
+    "coefficient.dat": (
+        "Time Cd Cs Cl CmRoll CmPitch CmYaw Cd(f) Cd(r) Cs(f) Cs(r) Cl(f)"
+        " Cl(r)"
+    ),
+}
 
 # Larger files of a template are meshes and fields
 TEXT_LIMIT = 10**6
@@ -23,9 +37,10 @@ def check(study, quiet=False):
     check_folders(study)
     check_targets(study)
     check_commands(study)
+    unknown = check_columns(study)
     share = check_feasible(study)
     if not quiet:
-        describe(study, share)
+        describe(study, share, unknown)
 
 
 def check_folders(study):
@@ -44,12 +59,19 @@ def check_folders(study):
 
 
 def texts(study):
-    """The template's text files, as far as they are copied: {path: text}."""
+    """The template's text files, as far as they are copied and somebody reads
+    them, without comments: {path: text}."""
     found = {}
     for path in case_folder.template_files(study):
+        if any(fnmatch.fnmatch(path.name, p) for p in BACKUPS):
+            continue
         if path.is_file() and path.stat().st_size < TEXT_LIMIT:
             with contextlib.suppress(UnicodeDecodeError):
-                found[path.relative_to(study.template)] = path.read_text()
+                text = path.read_text()
+                # Where a shell's wildcard would begin one
+                if not text.startswith("#!") and path.suffix != ".sh":
+                    text = COMMENT.sub(r"\1", text)
+                found[path.relative_to(study.template)] = text
     return found
 
 
@@ -139,6 +161,42 @@ def check_entry(study, name, target):
         ) from None
 
 
+def check_columns(study):
+    """Names of columns, where there is a table already or OpenFOAM's are known;
+    those that could not be checked."""
+    unknown = []
+    for kind in ("responses", "notes"):
+        for name, response in getattr(study, kind).items():
+            if not isinstance(response.column, str):
+                continue
+            where, columns = known_columns(study, response.file)
+            if not columns:
+                unknown.append((response.column, response.file))
+            elif response.column not in columns:
+                raise StudyError(
+                    f"{kind}/{name}/column: {where} has no column"
+                    f" {response.column}, but {' '.join(columns)}"
+                )
+    return unknown
+
+
+def known_columns(study, pattern):
+    """Where a table like that is, and its columns: of the template as it was
+    run, or of the baseline where that is made of the template as it is."""
+    cases = [study.template]
+    baseline = outcomes.read(study, outcomes.BASELINE)
+    if not baseline or baseline.template_hash == case_folder.template_hash(
+        study
+    ):
+        cases.append(outcomes.case(study, outcomes.BASELINE))
+    for case in cases:
+        with contextlib.suppress(responses.ResponseError, OSError):
+            path = responses.newest(case, pattern)
+            return path, responses.columns(path)[0]
+    name = Path(pattern).name
+    return f"forceCoeffs' {name}", COLUMNS.get(name, "").split()
+
+
 def commands(study):
     """All commands with the place where they stand."""
     for strategy in study.strategies.values():
@@ -206,13 +264,18 @@ def check_feasible(study):
     return sampling.feasible_probes(study)[1]
 
 
-def describe(study, share):
+def describe(study, share, unknown):
     print(
         f"{study.path.name}: {len(study.names)} parameters,"
         f" {len(study.responses)} responses, strategies"
         f" {' '.join(study.strategies)}"
     )
     print(f"feasible: {100*share:.3g} % of the box of the bounds")
+    for column, file in unknown:
+        print(
+            f"Note: the column {column} of {file} cannot be checked before the"
+            " baseline has run"
+        )
     outside = [
         p.name for p in study.parameters if not p.low <= p.baseline <= p.high
     ]

@@ -9,12 +9,12 @@ from . import designs, metamodel, outcomes, plots
 from .errors import StudyError
 
 
-def finished(study, strategy, origin=designs.SAMPLED):
-    """Designs that are done, with their outcomes."""
+def finished(study, strategy):
+    """Designs that are done, verifications of optima too, with their
+    outcomes."""
     pairs = [
         (d, outcomes.read(study, strategy, d.number))
         for d in designs.read(study)
-        if origin in (None, d.origin)
     ]
     return [(d, o) for d, o in pairs if outcomes.is_done(o)]
 
@@ -37,7 +37,11 @@ def models(study, strategy):
             )
     return {
         name: metamodel.fit(
-            study, name, points, [o.responses[name] for _, o in pairs]
+            study,
+            name,
+            points,
+            [o.responses[name] for _, o in pairs],
+            [d.number for d, _ in pairs],
         )
         for name in study.fitted
     }

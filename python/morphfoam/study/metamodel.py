@@ -37,6 +37,7 @@ class Model:
     process: object
     predicted: np.ndarray  # leave-one-out
     deviation: np.ndarray
+    numbers: list  # of the designs
 
     def __call__(self, points):
         """Mean at rows of points in the parameters' units."""
@@ -44,6 +45,15 @@ class Model:
 
     def with_deviation(self, points):
         return self.process.predict(unit(self.study, points), return_std=True)
+
+    def without(self, number, point):
+        """Mean and standard deviation at a design, by the model without it
+        where it is one of those that were fitted."""
+        if number in self.numbers:
+            i = self.numbers.index(number)
+            return float(self.predicted[i]), float(self.deviation[i])
+        mean, deviation = self.with_deviation(point)
+        return float(mean[0]), float(deviation[0])
 
     @property
     def errors(self):
@@ -71,7 +81,7 @@ def unit(study, points):
     return (np.asarray(points) - study.lows) / (study.highs - study.lows)
 
 
-def fit(study, name, points, values):
+def fit(study, name, points, values, numbers=()):
     """The model of one response from designs (rows) and its values there."""
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import (
@@ -100,7 +110,9 @@ def fit(study, name, points, values):
             random_state=0,
         ).fit(x, y)
         predicted, deviation = leave_one_out(process.kernel_, x, y)
-    return Model(name, study, x, y, process, predicted, deviation)
+    return Model(
+        name, study, x, y, process, predicted, deviation, list(numbers)
+    )
 
 
 def leave_one_out(kernel, x, y):

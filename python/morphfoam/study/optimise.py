@@ -40,10 +40,13 @@ def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
             for p, o, k in zip(points, objectives, label)
         ],
     )
-    print(
-        f"front of {len(points)} points in {len(chosen)} clusters; BIC of 1 to"
-        f" {len(bic)} clusters: {' '.join(f'{b:.0f}' for b in bic)}"
-    )
+    if len(names) == 1:
+        print(f"optimum: {names[0]} {objectives[0, 0]:.5g} predicted")
+    else:
+        print(
+            f"front of {len(points)} points in {len(chosen)} clusters; BIC of 1"
+            f" to {len(bic)} clusters: {' '.join(f'{b:.0f}' for b in bic)}"
+        )
 
     verified = representatives(study, points[chosen])
     status = 0
@@ -90,22 +93,49 @@ def front(study, found):
         )
 
     limits = [*study.constraints, *wanted.constraints]
-    points, objectives = pareto.nsga2(
-        evaluate,
-        study.lows,
-        study.highs,
-        list(wanted.objectives.values()),
-        wanted.population,
-        wanted.generations,
-        wanted.seed,
-    )
-    if not len(points):
-        raise StudyError(
-            "optimise/constraints: no design that keeps to all of them was"
-            " found on the metamodels. They are: "
-            + "; ".join(c.text for c in wanted.constraints)
+    signs = list(wanted.objectives.values())
+    try:
+        points, objectives = pareto.nsga2(
+            evaluate,
+            study.lows,
+            study.highs,
+            signs,
+            wanted.population,
+            wanted.generations,
+            wanted.seed,
         )
+    except pareto.Infeasible as error:
+        raise StudyError(
+            best_attainable(study, found, limits, error.point)
+        ) from None
+    if len(signs) == 1:
+        best = [int(np.argmax(objectives[:, 0] * signs[0]))]
+        points, objectives = points[best], objectives[best]
     return points, objectives
+
+
+def best_attainable(study, found, limits, point):
+    """What is said where no design keeps to all constraints."""
+    values = study.values(dict(zip(study.names, point)))
+    values.update({n: float(m(point[None])[0]) for n, m in found.items()})
+    missed = {
+        c.text: float(c.violation(values, study.baseline_values))
+        for c in limits
+    }
+    return (
+        "optimise/constraints: no design keeps to all of them on the"
+        " metamodels. Nearest to it is "
+        + ", ".join(f"{n} = {v:.3g}" for n, v in zip(study.names, point))
+        + ", where "
+        + " and ".join(
+            f"{text} is missed by {by:.3g}"
+            for text, by in missed.items()
+            if by
+        )
+        + " ("
+        + ", ".join(f"{name} {values[name]:.4g}" for name in found)
+        + "). Ask for no more than that, or widen the bounds"
+    )
 
 
 def representatives(study, points):
@@ -134,14 +164,14 @@ def compare(study, strategy, found, verified, label):
         row = {"cluster": int(k) + 1, "design": design.id, **design.parameters}
         point = np.array([[design.parameters[n] for n in study.names]])
         for name, model in found.items():
-            mean, deviation = model.with_deviation(point)
-            row[f"{name}.predicted"] = float(mean[0])
-            row[f"{name}.deviation"] = float(deviation[0])
+            mean, deviation = model.without(design.number, point)
+            row[f"{name}.predicted"] = mean
+            row[f"{name}.deviation"] = deviation
             computed = row[f"{name}.computed"] = (
                 outcome.responses[name] if outcomes.is_done(outcome) else ""
             )
             row[f"{name}.error%"] = (
-                100 * (float(mean[0]) - computed) / abs(computed)
+                100 * (mean - computed) / abs(computed)
                 if computed not in ("", 0)
                 else ""
             )

@@ -22,8 +22,16 @@ ETA_CROSSOVER, ETA_MUTATION, CROSSOVER = 20, 20, 0.9
 INFEASIBLE = 1e30
 
 
+class Infeasible(Exception):
+    """No point keeps to the constraints; the one that misses them least."""
+
+    def __init__(self, point):
+        super().__init__("no point keeps to the constraints")
+        self.point = np.array(point)
+
+
 def nsga2(evaluate, lows, highs, signs, population, generations, seed):
-    """The front: points (rows) and objectives.
+    """The front: points (rows) and objectives. Raises Infeasible.
 
     evaluate   rows of points -> rows of objectives, violation of each row
     signs      +1 for an objective to maximise, -1 to minimise
@@ -74,6 +82,8 @@ def nsga2(evaluate, lows, highs, signs, population, generations, seed):
         0
     ]
     feasible = [p for p in front if abs(p.fitness.values[0]) < INFEASIBLE]
+    if not feasible:
+        raise Infeasible(max(people, key=lambda p: p.fitness))
     rows = {tuple(p): p.fitness.values for p in feasible}
     order = sorted(rows, key=lambda row: rows[row])
     return (
@@ -89,6 +99,8 @@ def clusters(points, lows, highs, most, seed):
     from sklearn.mixture import GaussianMixture
 
     x = (points - lows) / (highs - lows)
+    if len(x) == 1:
+        return np.zeros(1, int), [0], []
     mixtures = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

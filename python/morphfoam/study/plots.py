@@ -70,13 +70,11 @@ def front(study, strategy, points, objectives, label, rows, path):
     figure, axes = grid(1, 1, 7, 5)
     axis = axes[0, 0]
     done = [
-        {**d.parameters, **o.responses}
-        for d, o in (
-            (d, outcomes.read(study, strategy, d.number))
-            for d in designs.read(study)
-            if d.origin == designs.SAMPLED
+        {**d.parameters, **outcome.responses}
+        for d in designs.read(study)
+        if outcomes.is_done(
+            outcome := outcomes.read(study, strategy, d.number)
         )
-        if outcomes.is_done(o)
     ]
     axis.plot(
         [d[x] for d in done],

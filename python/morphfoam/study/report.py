@@ -10,7 +10,7 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from . import designs, outcomes, plots, results
+from . import designs, failures, outcomes, plots, results
 
 STYLE = """
 body { font: 15px/1.5 sans-serif; max-width: 70em; margin: 2em auto;
@@ -19,12 +19,17 @@ h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 2em; }
 table { border-collapse: collapse; font-size: 13px; margin: 1em 0; }
 th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #ddd;
          font-variant-numeric: tabular-nums; }
-th { border-bottom: 2px solid #888; } td.text { text-align: left; }
+th { border-bottom: 2px solid #888; }
+td.text { text-align: left; min-width: 18em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; } img { max-width: 100%; }
 figure { display: inline-block; margin: 0 1em 1em 0; width: 20em;
          vertical-align: top; } figcaption { font-size: 13px; color: #555; }
 tr.failed td { background: #fdecea; }
 """
+
+
+# Columns of words
+TEXTS = ("reason", "where", "expression", "class", "the first says")
 
 
 def text(value):
@@ -49,9 +54,7 @@ def table(rows, columns=None):
             f"<td>{html.escape(str(row[c]))}</td>"
             if c == "design"
             else "<td{}>{}</td>".format(
-                ' class="text"'
-                if c in ("reason", "where", "expression")
-                else "",
+                ' class="text"' if c in TEXTS else "",
                 text(row.get(c, "")),
             )
             for c in columns
@@ -131,15 +134,14 @@ class Report:
         failed = [r for r in rows if r["status"] == outcomes.FAILED]
         self.add(
             f"<h2>Strategy {name}</h2>",
-            f"<p>Starts from the {study.strategies[name].start}. Of"
-            f" {len(designs.read(study))} designs"
-            f" {sum(r['origin'] != 'baseline' for r in done)} are done and"
-            f" {len(failed)} failed.</p>",
+            f"<p>Starts from the {study.strategies[name].start}."
+            f" {counts(study, rows)}</p>",
         )
         self.picture(plots.sampled, study, name)
         if failed:
             self.add(
                 "<h3>Failed</h3>",
+                table(self.classes(name)),
                 table(failed, ["design", *study.names, "reason"]),
             )
         if done:
@@ -150,11 +152,28 @@ class Report:
         self.add("<h3>All designs</h3>", table(rows))
         self.gallery(name, done)
 
+    def classes(self, name):
+        """One row per class of failures."""
+        found = [
+            outcomes.read(self.study, name, d.number)
+            for d in designs.read(self.study)
+        ]
+        return [
+            {
+                "class": group.kind,
+                "number": len(group.outcomes),
+                "designs": group.names,
+                "the first says": group.sentence,
+            }
+            for group in failures.groups(o for o in found if o and not o.done)
+        ]
+
     def models(self, name):
         path = self.study.folder / f"fit.{name}"
         if (path / "models.csv").exists():
             self.add(
                 "<h3>Metamodels</h3>",
+                f"<p>{fitted_to(path)}</p>",
                 table(read_table(path / "models.csv")),
                 "<p>Each design predicted by the model"
                 " without it; bars are two standard deviations.</p>",
@@ -231,6 +250,27 @@ class Report:
             + "\n</body></html>\n"
         )
         return path
+
+
+def counts(study, rows):
+    """How many designs there are, of which origin, and what became of them."""
+    origins = [d.origin for d in designs.read(study)]
+    sampled = origins.count(designs.SAMPLED)
+    others = len(origins) - sampled
+    kinds = f"{sampled} sampled"
+    if others:
+        kinds += f" and {others} verification{'s' * (others > 1)}"
+    own = [r["status"] for r in rows if r["origin"] != "baseline"]
+    return (
+        f"Of {len(origins)} designs ({kinds})"
+        f" {own.count(outcomes.DONE)} are done and"
+        f" {own.count(outcomes.FAILED)} failed."
+    )
+
+
+def fitted_to(path):
+    numbers = {r["design"] for r in read_table(path / "leaveOneOut.csv")}
+    return f"They are fitted to {len(numbers)} designs."
 
 
 def compare(study, tables):

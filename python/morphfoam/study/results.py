@@ -5,7 +5,7 @@
 
 import csv
 
-from . import designs, outcomes
+from . import designs, failures, outcomes
 
 
 def rows(study, strategy, baseline=True):
@@ -68,6 +68,8 @@ def conclude(study, strategy, chosen):
         f"{strategy}: {len(found) - len(failed) - missing} done,"
         f" {len(failed)} failed, {missing} not finished; {path}"
     )
+    for group in failures.groups(failed):
+        print(f"    {group}")
     if missing:
         baseline = outcomes.read(study, outcomes.BASELINE)
         if baseline and not outcomes.is_done(baseline):

@@ -5,7 +5,7 @@
 
 import os
 
-from . import designs, outcomes, results, sweep
+from . import designs, failures, outcomes, results, sweep
 
 
 def status(study, cores=None):
@@ -35,7 +35,7 @@ def status(study, cores=None):
                 + f" on {at_once*study.cores} cores"
             )
         print(line)
-        for outcome in failed:
-            print(f"    {outcome.name}: {outcome.reason}")
+        for group in failures.groups(failed):
+            print(f"    {group}")
         if finished:
             print(f"    {results.write(study, strategy)}")

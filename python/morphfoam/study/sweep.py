@@ -76,13 +76,62 @@ def selected(study, only):
 
 def forget(study, strategy, chosen, redo):
     """Remove the outcomes of designs that are to be made again."""
+    check_redo(study, chosen, redo)
+    if "baseline" in redo:
+        forget_baseline(study)
     for design in chosen:
         outcome = outcomes.read(study, strategy, design.number)
         if outcome and (
-            design.number in redo
-            or ("failed" in redo and not outcomes.is_done(outcome))
+            design.number in redo or ("failed" in redo and not outcome.done)
         ):
             outcomes.path(study, strategy, design.number).unlink()
+
+
+def check_redo(study, chosen, redo):
+    there = {d.number for d in designs.read(study)}
+    for number in redo:
+        if number == 0:
+            raise StudyError(
+                "there is no design 0; what designs start from is called"
+                " baseline: -redo baseline"
+            )
+        if isinstance(number, int) and number not in there:
+            raise StudyError(
+                f"-redo: there is no design {number}; the designs are 1 to"
+                f" {max(there)}"
+            )
+        if isinstance(number, int) and number not in {
+            d.number for d in chosen
+        }:
+            raise StudyError(
+                f"-redo: design {number} is not among those of -only, so that"
+                " it would not be made. Add it there"
+            )
+    if "baseline" in redo and study.baseline_steps is None:
+        raise StudyError("-redo baseline: this study has no baseline")
+
+
+def forget_baseline(study):
+    """The baseline and what was made from it, in every strategy."""
+    gone = []
+    for name, strategy in study.strategies.items():
+        if strategy.start == "template":
+            continue
+        files = [
+            outcomes.path(study, name, d.number)
+            for d in designs.read(study)
+            if outcomes.read(study, name, d.number)
+        ]
+        for file in files:
+            file.unlink()
+        if files:
+            gone.append(f"{len(files)} of {name}")
+    outcomes.path(study, outcomes.BASELINE).unlink(missing_ok=True)
+    print(
+        "The baseline is made again"
+        + (f", and what was made from it: {', '.join(gone)}" if gone else ""),
+        flush=True,
+    )
 
 
 def keep_up(study, strategy, numbers):
@@ -102,8 +151,8 @@ def keep_up(study, strategy, numbers):
             raise StudyError(
                 f"{what} was made with another study file: "
                 + ", ".join(changed)
-                + " differ. Use another folder, or remove"
-                f" {outcomes.path(study, name, number)} to have it made anew"
+                + " differ. Use another folder, or have it made anew: -redo"
+                f" {number or 'baseline'}"
             )
         if (
             number
@@ -111,9 +160,9 @@ def keep_up(study, strategy, numbers):
             and (not baseline or baseline.finished != outcome.baseline_made)
         ):
             raise StudyError(
-                f"{what} was made from a baseline that is no more there. Remove"
-                f" {outcomes.path(study, name, number).parent} to have all"
-                " designs made anew"
+                f"{what} was made from a baseline that is no more there. Have"
+                " the baseline and all that is made from it made anew: -redo"
+                " baseline"
             )
         if outcome.response_texts != outcomes.response_texts(study):
             read_again(study, outcome)
@@ -124,15 +173,35 @@ def note_template(study, found):
     """A template may be run in and written to: changes are no error."""
     now = case_folder.template_hash(study)
     older = [o for o in found if o.template_hash not in (now, None)]
-    if older:
-        names = ", ".join(o.name for o in older[:5])
-        print(
-            f"Note: {study.template} has changed since {len(older)} of the"
-            f" finished designs were made ({names}"
-            + (", ..." if len(older) > 5 else "")
-            + "). They stay as they are; -redo makes them again",
-            flush=True,
+    if not older:
+        return
+    names = ", ".join(o.name for o in older[:5])
+    advice = "-redo ID or -redo failed makes designs again"
+    baseline = next((o for o in found if o.number is None), None)
+    if baseline:
+        corrected, kept = case_folder.corrections(study, baseline)
+        if corrected:
+            advice += f" with the template's {listed(corrected)}"
+        if kept:
+            advice += (
+                f"; the baseline's own {listed(kept)} stays until it is made"
+                " again"
+            )
+        advice += (
+            "; -redo baseline makes the baseline again, and all that was made"
+            " from it"
         )
+    print(
+        f"Note: {study.template} has changed since {len(older)} of the"
+        f" finished designs were made ({names}"
+        + (", ..." if len(older) > 5 else "")
+        + f"). They stay as they are. {advice}",
+        flush=True,
+    )
+
+
+def listed(names):
+    return ", ".join(names[:5]) + (", ..." if len(names) > 5 else "")
 
 
 def read_again(study, outcome):

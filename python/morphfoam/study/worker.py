@@ -19,7 +19,14 @@ import re
 import shutil
 import sys
 
-from . import case_folder, designs, outcomes, process, responses
+from . import (
+    case_folder,
+    designs,
+    failures,
+    outcomes,
+    process,
+    responses,
+)
 from .errors import StudyError
 from .study_file import Strategy, StudyFile
 
@@ -114,13 +121,21 @@ class Worker:
             case_folder.copy_case(
                 outcomes.case(self.study, outcomes.BASELINE), self.case
             )
+            baseline = outcomes.read(self.study, outcomes.BASELINE)
+            case_folder.copy_files(
+                self.study,
+                case_folder.corrections(self.study, baseline)[0],
+                self.case,
+            )
             self.outcome.started_from = outcomes.BASELINE
-            self.outcome.baseline_made = outcomes.read(
-                self.study, outcomes.BASELINE
-            ).finished
+            self.outcome.baseline_made = baseline.finished
             if self.strategy.start == "nearest":
                 self.take_nearest_fields()
         case_folder.write_parameters(self.study, self.case, self.parameters)
+        if self.strategy.name == outcomes.BASELINE:
+            self.outcome.template_files = case_folder.digests(
+                self.study, self.case
+            )
 
     def take_nearest_fields(self):
         """Of the nearest design with a smaller number that did not fail."""
@@ -148,7 +163,7 @@ class Worker:
                     f"{step.name}: timeout after {step.timeout:g} s"
                 )
             if status != 0:
-                raise DesignFailed(f"{step.name}: {why(log, status)}")
+                raise DesignFailed(f"{step.name}: {failures.why(log, status)}")
             if step.expect and not re.search(
                 step.expect, log.read_text(errors="replace"), re.MULTILINE
             ):
@@ -182,6 +197,7 @@ class Worker:
                 for name, word in zip(names, rows[-1])
                 if re.match(r"[-+]?[.\d]", word)
             }
+        self.read_safe_scale()
         with contextlib.suppress(responses.ResponseError):
             text = responses.newest(
                 self.case, "postProcessing/**/morphMesh/*/motion"
@@ -192,6 +208,16 @@ class Worker:
                     r"^(attainable|moved)\s+(\S+);", text, re.MULTILINE
                 )
             }
+
+    def read_safe_scale(self):
+        """How far a lattice goes that folds: morphMesh ends before it has a
+        mesh to judge."""
+        for step in self.strategy.steps:
+            log = self.case / f"log.{step.name}"
+            if log.exists():
+                scale = failures.safe_scale(log.read_text(errors="replace"))
+                if scale is not None:
+                    self.outcome.motion = {"attainable": scale}
 
     def take_picture(self):
         if not self.study.picture:
@@ -228,31 +254,6 @@ def nearer(study, designs_, number):
         if d.number < number
     )
     return [n for far, n in found if far < limit]
-
-
-def why(log, status):
-    """The line of a log that says why the command failed."""
-    text = log.read_text(errors="replace")
-    invalid = re.search(
-        r"(The motion makes the mesh|The moved mesh would be) invalid:.*?"
-        r"(?=\n\s*(Of these|Nothing|The mesh is left|\n)|\Z)",
-        text,
-        re.DOTALL,
-    )
-    if invalid:
-        return " ".join(invalid.group().split())[:300]
-    if "--> FOAM FATAL" in text:
-        return case_folder.first_error(text)[:300]
-    if "sigFpe" in text or "Floating point exception" in text:
-        times = re.findall(r"^Time = (\S+)", text, re.MULTILINE)
-        return "diverged, floating point exception" + (
-            f" at time {times[-1]}" if times else ""
-        )
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    said = f" ({lines[-1][:200]})" if lines else ""
-    if status < 0:
-        return f"ended by signal {-status}{said}"
-    return f"exit status {status}{said}"
 
 
 def is_engine(pid):
