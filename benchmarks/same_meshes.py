@@ -92,6 +92,7 @@ def main():
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = (given.keep or pathlib.Path(scratch)).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
         for name, tree in zip("ab", given.trees):
             run(tree, given.suite or ["tutorials"], folder/name)
         rows = compare(folder/"a", folder/"b")

@@ -61,7 +61,13 @@ morph::Vectors Foam::rbfField::atCandidates
 
 void Foam::rbfField::makeSelection(morph::Communicator& communicator)
 {
-    exactSurface_.reset(new morph::ExactSurface(problem_.correctionRadius()));
+    exactSurface_.reset
+    (
+        new morph::ExactSurface
+        (
+            problem_.correctionRadius(), problem_.images().inReach()
+        )
+    );
     selection_ = std::make_shared<morph::GreedySelection>
     (
         problem_.kernel(),

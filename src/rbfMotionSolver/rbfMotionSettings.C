@@ -196,10 +196,6 @@ static string imagesRefusal(const rbfMotionSettings& settings)
     {
         return "they need 'polynomial none'";
     }
-    if (settings.surfaceCorrection)
-    {
-        return "the levels of 'surfaceCorrection' would not be symmetric";
-    }
     return "";
 }
 

@@ -351,7 +351,6 @@ def test_a_wedge_is_the_same_on_any_number_of_ranks(tmp_path):
 # --- the entry
 
 @pytest.mark.parametrize("extra, why", [
-    ("surfaceCorrection yes;", "'surfaceCorrection' would not be symmetric"),
     ("polynomial linear;", "they need 'polynomial none'"),
     ("kernel inverseMultiQuadric;", "endlessly many"),
     ("supportRadius 300;", "more than 200 of them"),

@@ -15,7 +15,7 @@ namespace morph
 {
 
 // a, b: three coordinates each
-inline bool before(const double* a, const double* b)
+inline bool precedes(const double* a, const double* b)
 {
     return std::lexicographical_compare(a, a + 3, b, b + 3);
 }
@@ -23,7 +23,7 @@ inline bool before(const double* a, const double* b)
 
 inline bool before(const Vector3& a, const Vector3& b)
 {
-    return before(a.data(), b.data());
+    return precedes(a.data(), b.data());
 }
 
 } // namespace morph

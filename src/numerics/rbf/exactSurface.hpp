@@ -8,6 +8,7 @@
 
 #include "communicator.hpp"
 #include "controlPoints.hpp"
+#include "imageGroup.hpp"
 #include "surfaceCorrection.hpp"
 
 #include <memory>
@@ -23,8 +24,17 @@ class ExactSurface
 {
 public:
 
-    // Largest radius of the hierarchy [m]
-    explicit ExactSurface(double radius) : radius_(radius) {}
+    // radius: the largest of the hierarchy [m]; images: those that the field
+    // has, and with it the correction, with a reach of at least 3 radii
+    explicit ExactSurface
+    (
+        double radius,
+        const ImageGroup& images = ImageGroup()
+    )
+    :
+        radius_(radius),
+        images_(images)
+    {}
 
     // residuals: C (g - C^T s) at the control points of this rank: n x 3 [m].
     // Adds to the displacements at points what is missing: m x 3 [m] each.
@@ -48,7 +58,11 @@ private:
         const Vectors& points
     );
 
+    // Images of the centres, appended to them; of each centre its family
+    std::vector<Index> addImages(Columns& centres);
+
     double radius_;
+    ImageGroup images_;
     std::unique_ptr<SurfaceCorrection> correction_;
     SurfaceCorrection::Reach reach_;
 
@@ -56,6 +70,9 @@ private:
     // they are: several may be at one place
     std::vector<Index> centre_;
     Index nCentres_ = 0;
+
+    // Those beyond them, by the centre and the map
+    std::vector<ImageGroup::Replica> replicas_;
 };
 
 } // namespace morph

@@ -247,6 +247,30 @@ ControlPoint ImageGroup::restricted
 }
 
 
+std::vector<ImageGroup::Replica> ImageGroup::replicas
+(
+    const Columns& points,
+    double reach
+) const
+{
+    std::vector<Replica> found;
+    for (std::size_t m = 1; m < maps_.size(); ++m)
+    {
+        for (Index j = 0; j < points.rows(); ++j)
+        {
+            const Vector3 x = points.row(j).transpose();
+            const Vector3 y = maps_[m](x);
+            const bool elsewhere = (y - x).norm() > samePlace_;
+            if (elsewhere && distance({y, y}, box_) <= (1 + 1e-9)*reach)
+            {
+                found.push_back({j, Index(m), y});
+            }
+        }
+    }
+    return found;
+}
+
+
 void ImageGroup::replicate(Columns& centres, Columns& weights) const
 {
     const Index n = centres.rows();

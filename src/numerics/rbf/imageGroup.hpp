@@ -119,6 +119,21 @@ public:
         double& contradiction
     ) const;
 
+    // An image of a point: of which of some, and by which of the maps
+    struct Replica
+    {
+        Index of;
+        Index map;
+        Vector3 position;
+    };
+
+    // The images of some points that are within a distance of the box [m],
+    // but for those at the points themselves
+    std::vector<Replica> replicas(const Columns& points, double reach) const;
+
+    // Positions closer than this are one [m]
+    double samePlace() const { return samePlace_; }
+
     // Appends to centres and their weights, n x 3 each, their images that are
     // within reach of the box
     void replicate(Columns& centres, Columns& weights) const;

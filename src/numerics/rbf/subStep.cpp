@@ -68,7 +68,7 @@ SubStep subStep
     step.displacements = selection->interpolant()(PointCloud(positions));
     if (settings.correctionRadius > 0)
     {
-        ExactSurface correction(settings.correctionRadius);
+        ExactSurface correction(settings.correctionRadius, settings.images);
         correction.add
         (
             part, selection->residuals(part), communicator, positions,

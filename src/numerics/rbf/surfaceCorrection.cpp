@@ -5,6 +5,7 @@
 
 #include "kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -74,7 +75,12 @@ void SurfaceCorrection::cellsAround
 }
 
 
-SurfaceCorrection::SurfaceCorrection(const Columns& centres, double radius)
+SurfaceCorrection::SurfaceCorrection
+(
+    const Columns& centres,
+    double radius,
+    const std::vector<Index>& family
+)
 :
     centres_(centres),
     coefficients_(Vectors::Zero(centres.rows(), 3))
@@ -87,8 +93,19 @@ SurfaceCorrection::SurfaceCorrection(const Columns& centres, double radius)
         );
     }
 
-    std::vector<Index> left(centres.rows());
-    std::iota(left.begin(), left.end(), Index(0));
+    Families all(centres.rows());
+    for (Index i = 0; i < centres.rows(); ++i)
+    {
+        all[family.empty() ? i : family[i]].push_back(i);
+    }
+    Families left;
+    for (std::vector<Index>& members : all)
+    {
+        if (!members.empty())
+        {
+            left.push_back(std::move(members));
+        }
+    }
     double h = radius;
     for (int l = 0; !left.empty(); ++l, h *= 0.5)
     {
@@ -107,7 +124,7 @@ SurfaceCorrection::SurfaceCorrection(const Columns& centres, double radius)
 
 SurfaceCorrection::Level SurfaceCorrection::makeLevel
 (
-    std::vector<Index>& left,
+    Families& left,
     double radius
 ) const
 {
@@ -128,33 +145,41 @@ SurfaceCorrection::Level SurfaceCorrection::makeLevel
         }
     }
 
-    std::vector<Index> rest;
-    for (const Index i : left)
+    Families rest;
+    for (const std::vector<Index>& members : left)
     {
-        const Vector3 x = centres_.row(i);
         bool alone = true;
-        cellsAround
-        (
-            placed, x, radius,
-            [&](const std::vector<Index>& there)
-            {
-                for (const Index j : there)
-                {
-                    const Vector3 d = centres_.row(j).transpose() - x;
-                    alone = alone && d.norm() >= radius;
-                }
-            }
-        );
-        if (alone)
+        for (std::size_t k = 0; k < members.size(); ++k)
         {
-            const Cell cell = cellOf(x, radius);
+            const Vector3 x = centres_.row(members[k]);
+            const auto apart = [&](const Index j)
+            {
+                return (centres_.row(j).transpose() - x).norm() >= radius;
+            };
+            alone =
+                alone
+             && std::all_of(members.begin(), members.begin() + k, apart);
+            cellsAround
+            (
+                placed, x, radius,
+                [&](const std::vector<Index>& there)
+                {
+                    alone =
+                        alone && std::all_of(there.begin(), there.end(), apart);
+                }
+            );
+        }
+        if (!alone)
+        {
+            rest.push_back(members);
+            continue;
+        }
+        for (const Index i : members)
+        {
+            const Cell cell = cellOf(centres_.row(i), radius);
             level.members.push_back(i);
             level.grid[cell].push_back(i);
             placed[cell].push_back(i);
-        }
-        else
-        {
-            rest.push_back(i);
         }
     }
     left = rest;

@@ -23,13 +23,24 @@ namespace morph
 // was met stays met. The last level has the points that are left, and all
 // residuals are met to round-off. It changes the field within h_0 of the points
 // alone: what a greedy selection leaves at a wall, the cells at the wall follow.
+//
+// Points that are images of each other go to one level together, where they are
+// apart from each other as well: a correction of residuals that have a symmetry
+// or a period has it, too.
 class SurfaceCorrection
 {
 public:
 
     // centres: n x 3 [m], those of all ranks in one order, no two at one place;
     // radius: h_0 [m]
-    SurfaceCorrection(const Columns& centres, double radius);
+    // family: of each centre the first that it is an image of, or itself;
+    // none: each by itself
+    SurfaceCorrection
+    (
+        const Columns& centres,
+        double radius,
+        const std::vector<Index>& family = std::vector<Index>()
+    );
 
     // What is to be added at the centres: n x 3 [m]
     void set(const Vectors& residuals);
@@ -96,8 +107,10 @@ private:
         const Action& action
     );
 
-    // Takes from the points that are left those that make up a level
-    Level makeLevel(std::vector<Index>& left, double radius) const;
+    using Families = std::vector<std::vector<Index>>;
+
+    // Takes from the families that are left those that make up a level
+    Level makeLevel(Families& left, double radius) const;
 
     // Of some of the points, at one level. Those out of reach of the cells of
     // all centres, whatever their level, are taken off the list: so they are at

@@ -167,6 +167,75 @@ TEST(ExactSurface, isTheSameOnAnyRanksAndWithNewResiduals)
 }
 
 
+TEST(ExactSurface, hasTheSymmetryAndThePeriodOfItsImages)
+{
+    // A mirror at x = 0 and a period of 1 in y: residuals are those of points
+    // in [0, 1]^3, in the mirror's plane along it
+    const Surface surface(200, 7);
+    Box box;
+    box.low = Vector3::Zero();
+    box.high = Vector3::Ones();
+    const ImageGroup images
+    (
+        {
+            RigidMap::reflection(Vector3::Zero(), Vector3::UnitX()),
+            RigidMap::translation(Vector3::UnitY())
+        },
+        box, 0.7, 100
+    );
+    ControlPoints points;
+    Vectors residuals(202, 3);
+    Columns x(202, 3);
+    for (Index i = 0; i < 202; ++i)
+    {
+        Vector3 at = surface.x.row(i%200).transpose();
+        for (int a = 0; a < 3; ++a)
+        {
+            at[a] -= std::floor(at[a]);
+        }
+        Vector3 r = surface.residuals.row(i%200).transpose();
+        if (i >= 200)
+        {
+            // In the plane of the mirror, and very near to it
+            at = Vector3(i == 200 ? 0 : 1e-4, 0.3, 0.4 + 0.2*(i - 200));
+            r[0] = i == 200 ? 0 : r[0];
+        }
+        points.push_back(ControlPoint::prescribed(at, Vector3::Zero()));
+        residuals.row(i) = r.transpose();
+        x.row(i) = at.transpose();
+    }
+
+    // At the points themselves, in the plane of the mirror, and on both
+    // periodic sides
+    const Index n = 100;
+    Vectors where(202 + 3*n, 3);
+    where.topRows(202) = x;
+    for (Index i = 0; i < n; ++i)
+    {
+        const double a = 0.01*i;
+        const double b = std::fmod(0.37*i, 1.0);
+        where.row(202 + i) << 0, a, b;
+        where.row(202 + n + i) << a, 0, b;
+        where.row(202 + 2*n + i) << a, 1, b;
+    }
+    SerialCommunicator communicator;
+    Vectors moved = Vectors::Zero(where.rows(), 3);
+    ExactSurface(0.2, images).add
+    (
+        points, residuals, communicator, where, moved
+    );
+
+    EXPECT_LT((moved.topRows(202) - residuals).cwiseAbs().maxCoeff(), 1e-14);
+    const Vectors inPlane = moved.middleRows(202, n);
+    EXPECT_LT(inPlane.col(0).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_GT(inPlane.cwiseAbs().maxCoeff(), 1e-4);
+    const Vectors here = moved.middleRows(202 + n, n);
+    const Vectors there = moved.bottomRows(n);
+    EXPECT_GT(here.cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+
 TEST(SurfaceCorrection, copesWithNoPoints)
 {
     SurfaceCorrection correction(Columns(0, 3), 1);
