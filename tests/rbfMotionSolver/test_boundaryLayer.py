@@ -13,7 +13,8 @@ import re
 import numpy as np
 import pytest
 
-from boundaryLayer import AROUND, CHORD, THICKNESS, pitched
+from boundaryLayer import AROUND, CHORD, THICKNESS, layers, pitched
+from rbfCase import groups, points_at, rbf_case, reference, side, ulps
 
 TOLERANCE = "greedy { tolerance %s; }"
 
@@ -82,3 +83,67 @@ def test_surface_correction_is_the_same_on_any_number_of_ranks(tmp_path):
         morph(case, ranks=int(np.prod(parts)))
         np.testing.assert_array_equal(
             case.decomposed_points("1/polyMesh/points"), expected)
+
+
+# --- symmetric and periodic
+
+
+FLOOR = {"xMin": "cyclic; neighbourPatch xMax;",
+         "xMax": "cyclic; neighbourPatch xMin;", "yMin": "symmetryPlane",
+         "yMax": "symmetryPlane", "zMin": "wall", "zMax": "wall"}
+
+
+def wavy_floor(x):
+    """A displacement of period 1 in x that is symmetric about y = 0, 1."""
+    wave = 2*np.pi*x[:, 0]
+    return np.stack([0.02*np.sin(wave)*np.cos(np.pi*x[:, 1]),
+                     0.01*np.sin(np.pi*x[:, 1])*np.cos(wave),
+                     0.06*np.cos(wave)*np.cos(np.pi*x[:, 1])], 1)
+
+
+def floor_case(path, coeffs):
+    """A box of first cells 1e-6 high on a floor that bulges."""
+    n, last = layers(1e-6, far=1, growth=1.5)
+    case = rbf_case(
+        path, patches=FLOOR, cells=(24, 16, n), grading=(1, 1, last),
+        coeffs=f"supportRadius 1.2; images yes; {coeffs}" + groups(
+            floor="type moving; patches (zMin); displacement { type file;"
+                  ' file "constant/floor.txt"; tolerance 1e-9; }',
+            top="type fixed; patches (zMax);"))
+    x = reference(case)
+    floor = x[side(x, "zMin")]
+    np.savetxt(path/"constant/floor.txt",
+               np.hstack([floor, wavy_floor(floor)]), fmt="%.17g")
+    return case
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_thin_layers_follow_their_wall_between_planes_of_symmetry(
+        tmp_path, ranks):
+    case = floor_case(tmp_path, "surfaceCorrection yes; "
+                      + TOLERANCE % "1e-3")
+    if ranks > 1:
+        case.decompose((1, ranks, 1))
+    output = morph(case, ranks=ranks)
+    before, after = quality(output, "before"), quality(output, "after")
+    assert after[5:] == [0, 0]
+    # The floor is as steep as 2 pi 0.06: 20.7 degrees, and no cell is worse
+    # than a cell that follows it and its shear can be
+    assert before[2] < 1 and after[2] < 30
+    x = reference(case)
+    moved = points_at(case, "1")
+    floor = side(x, "zMin")
+    np.testing.assert_allclose(moved[floor], x[floor] + wavy_floor(x[floor]),
+                               rtol=0, atol=ulps(x))
+    for name in ("yMin", "yMax"):
+        plane = side(x, name)
+        np.testing.assert_allclose(moved[plane, 1], x[plane, 1], rtol=0,
+                                   atol=1e-15)
+    left, right = side(x, "xMin"), side(x, "xMax")
+    np.testing.assert_allclose(moved[right] - moved[left],
+                               x[right] - x[left], rtol=0, atol=1e-14)
+
+
+def test_without_the_correction_thin_layers_fold(tmp_path):
+    output = morph(floor_case(tmp_path, TOLERANCE % "1e-3"), status=1)
+    assert "makes the mesh invalid" in output

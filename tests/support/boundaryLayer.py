@@ -20,9 +20,9 @@ THICKNESS = 0.12
 FAR = 10.0
 
 
-def layers(first, growth=1.25):
+def layers(first, growth=1.25, far=FAR):
     """Number of cells from the wall to the far field, and the grading."""
-    n = math.ceil(math.log(1 + FAR/first*(growth - 1), growth))
+    n = math.ceil(math.log(1 + far/first*(growth - 1), growth))
     return n, growth**(n - 1)
 
 
