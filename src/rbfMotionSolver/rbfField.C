@@ -40,12 +40,7 @@ Foam::rbfField::rbfField(rbfMotionProblem& problem, const label regioni)
     region_(regioni),
     cloud_(asVectors(problem.reduced().positions(regioni))),
     linear_(false)
-{
-    if (problem.settings().surfaceCorrection)
-    {
-        positions_ = problem.reduced().positions(regioni);
-    }
-}
+{}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -61,13 +56,7 @@ morph::Vectors Foam::rbfField::atCandidates
 
 void Foam::rbfField::makeSelection(morph::Communicator& communicator)
 {
-    exactSurface_.reset
-    (
-        new morph::ExactSurface
-        (
-            problem_.correctionRadius(), problem_.images().inReach()
-        )
-    );
+    exactSurface_.reset();
     selection_ = std::make_shared<morph::GreedySelection>
     (
         problem_.kernel(),
@@ -135,10 +124,7 @@ bool Foam::rbfField::selectLinear
     {
         morph::SelectionSettings few(problem_.settings().selection);
         few.maxPoints = min(few.maxPoints, linearPoints);
-        exactSurface_.reset
-        (
-            new morph::ExactSurface(problem_.correctionRadius())
-        );
+        exactSurface_.reset();
         selection_ = std::make_shared<morph::GreedySelection>
         (
             problem_.kernel(), morph::Polynomial::linear, few
@@ -243,11 +229,23 @@ void Foam::rbfField::select(rbfMotion& motion, const bool anew)
 }
 
 
-void Foam::rbfField::propagate(vectorField& inPlane) const
+void Foam::rbfField::propagate(vectorField& inPlane)
 {
     morph::Vectors s = selection_->interpolant()(cloud_);
-    if (problem_.settings().surfaceCorrection)
+    const scalar correctionRadius = problem_.correctionRadius(region_);
+    if (correctionRadius > 0)
     {
+        if (!exactSurface_)
+        {
+            exactSurface_.reset
+            (
+                new morph::ExactSurface
+                (
+                    correctionRadius, problem_.images().inReach()
+                )
+            );
+            positions_ = problem_.reduced().positions(region_);
+        }
         pstreamCommunicator communicator;
         exactSurface_->add
         (

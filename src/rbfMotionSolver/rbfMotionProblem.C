@@ -15,6 +15,10 @@ namespace Foam
 // distance of selected points, over which what they leave varies
 static const scalar correctionReach = 0.1;
 
+// An error above this part of the height of a first cell is one that the cell
+// notices
+static const scalar noticed = 0.1;
+
 } // End namespace Foam
 
 
@@ -41,15 +45,75 @@ Foam::rbfMotionProblem::rbfMotionProblem
         mesh, dict, points0, groups, reduced_, images_, settings.featureAngle
     ),
     radius_(settings, formerRadius),
-    span_(boundBox(points0, true).mag())
+    span_(boundBox(points0, true).mag()),
+    corrects_
+    (
+        reduced_.nRegions(),
+        settings.surfaceCorrection == rbfMotionSettings::correctionPolicy::yes
+    )
 {}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::rbfMotionProblem::findFirstCellHeight()
+{
+    const firstCells cells(mesh_, points0_);
+    firstCellHeight_.setSize(reduced_.nRegions());
+    forAll(firstCellHeight_, regioni)
+    {
+        firstCellHeight_[regioni] =
+            cells.least(controlPoints_.candidates(regioni).meshPoints);
+    }
+}
+
+
+void Foam::rbfMotionProblem::updateCorrection()
+{
+    typedef rbfMotionSettings::correctionPolicy policy;
+    if
+    (
+        settings_.surfaceCorrection != policy::automatic
+     || settings_.selection.all
+    )
+    {
+        return;
+    }
+    forAll(corrects_, regioni)
+    {
+        if (!moves(regioni))
+        {
+            corrects_[regioni] = false;
+            continue;
+        }
+        if (firstCellHeight_.empty())
+        {
+            findFirstCellHeight();
+        }
+        const scalar tolerance =
+            settings_.selection.tolerance
+           *controlPoints_.largestValue(regioni);
+        const scalar height = firstCellHeight_[regioni];
+        const bool former = corrects_[regioni];
+        corrects_[regioni] = tolerance > noticed*height;
+        if (corrects_[regioni] && !former)
+        {
+            Info<< "rbfMotionSolver: the first cells, " << height
+                << " m high, would notice the tolerance of " << tolerance
+                << " m: surfaceCorrection is on" << endl;
+        }
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::rbfMotionProblem::correctionRadius() const
+Foam::scalar Foam::rbfMotionProblem::correctionRadius
+(
+    const label regioni
+) const
 {
-    return settings_.surfaceCorrection ? correctionReach*radius() : 0;
+    return corrects_[regioni] ? correctionReach*radius() : 0;
 }
 
 
@@ -66,6 +130,7 @@ Foam::rbfMotionProblem::change Foam::rbfMotionProblem::update
     {
         controlPoints_.update(rebuild);
     }
+    updateCorrection();
     return changed;
 }
 

@@ -185,6 +185,24 @@ static morph::SelectionSettings readSelection(const dictionary& dict)
 }
 
 
+//- The word auto, or any that OpenFOAM knows for yes and no
+static rbfMotionSettings::correctionPolicy readCorrection
+(
+    const dictionary& dict
+)
+{
+    typedef rbfMotionSettings::correctionPolicy policy;
+    const entry* given = dict.findEntry("surfaceCorrection", keyType::LITERAL);
+    if (!given || (given->isStream() && given->stream().size() == 1
+     && given->stream().first().isWord()
+     && given->stream().first().wordToken() == "auto"))
+    {
+        return policy::automatic;
+    }
+    return dict.get<bool>("surfaceCorrection") ? policy::yes : policy::no;
+}
+
+
 //- Why other entries exclude images; empty if they do not
 static string imagesRefusal(const rbfMotionSettings& settings)
 {
@@ -235,8 +253,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
         dict.found("supportRadiusFactor") ? 0 : 0.5;
 
     settings.selection = readSelection(dict);
-    settings.surfaceCorrection =
-        dict.getOrDefault<bool>("surfaceCorrection", false);
+    settings.surfaceCorrection = readCorrection(dict);
     settings.images =
     {
         dictionaryChecks::getChoice

@@ -4,7 +4,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "selectionReport.H"
-#include "movedGeometry.H"
 #include "StringStream.H"
 #include "syncTools.H"
 
@@ -22,29 +21,6 @@ Foam::selectionReport::selectionReport
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::selectionReport::findFirstCellHeight(const pointField& points0)
-{
-    const movedGeometry geometry(mesh_, points0);
-    firstCellHeight_.setSize(mesh_.boundaryMesh().nNonProcessor());
-    forAll(firstCellHeight_, patchi)
-    {
-        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-        scalarField& least = firstCellHeight_[patchi];
-        least.setSize(patch.nPoints(), GREAT);
-        forAll(patch, i)
-        {
-            const scalar height =
-                geometry.cellVolumes()[patch.faceCells()[i]]
-               /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
-            for (const label pointi : patch.localFaces()[i])
-            {
-                least[pointi] = min(least[pointi], height);
-            }
-        }
-    }
-}
-
 
 void Foam::selectionReport::summary(const morph::SelectionResult& result)
 {
@@ -127,9 +103,9 @@ void Foam::selectionReport::warnOfFirstCells
         }
     }
     syncTools::syncPointList(mesh_, error, maxEqOp<scalar>(), scalar(-1));
-    if (firstCellHeight_.empty())
+    if (!firstCells_)
     {
-        findFirstCellHeight(problem.points0());
+        firstCells_.reset(new firstCells(mesh_, problem.points0()));
     }
 
     scalar worst = 0;
@@ -137,22 +113,19 @@ void Foam::selectionReport::warnOfFirstCells
 
     // A tolerance this small would leave no error above a tenth of a height
     scalar allowed = GREAT;
-    forAll(firstCellHeight_, patchi)
+    for (label patchi = 0; patchi < firstCells_->nPatches(); ++patchi)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-        if (polyPatch::constraintType(patch.type()))
-        {
-            continue;
-        }
+        const scalarField& heights = firstCells_->heights(patchi);
         scalar ratio = 0;
         scalar height = GREAT;
-        forAll(patch.meshPoints(), i)
+        forAll(heights, i)
         {
             const scalar e = error[patch.meshPoints()[i]];
             if (e >= 0)
             {
-                ratio = max(ratio, e/firstCellHeight_[patchi][i]);
-                height = min(height, firstCellHeight_[patchi][i]);
+                ratio = max(ratio, e/heights[i]);
+                height = min(height, heights[i]);
             }
         }
         reduce(ratio, maxOp<scalar>());
@@ -195,7 +168,7 @@ void Foam::selectionReport::write
         {
             summary(made.worst);
             warnOfTolerance(made.worst, problem.radius());
-            if (!settings_.surfaceCorrection)
+            if (problem.correctionRadius(made.region) == 0)
             {
                 warnOfFirstCells(problem, made);
             }

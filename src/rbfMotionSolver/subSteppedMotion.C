@@ -96,7 +96,7 @@ void Foam::subSteppedMotion::addStep
         problem_.kernel(),
         problem_.settings().polynomial,
         problem_.settings().selection,
-        problem_.correctionRadius(),
+        problem_.correctionRadius(regioni),
         part.images
     };
     pstreamCommunicator communicator;

@@ -17,6 +17,7 @@ from boundaryLayer import AROUND, CHORD, THICKNESS, layers, pitched
 from rbfCase import groups, points_at, rbf_case, reference, side, ulps
 
 TOLERANCE = "greedy { tolerance %s; }"
+UNCORRECTED = "surfaceCorrection no; " + TOLERANCE
 
 
 def morph(case, **run):
@@ -45,7 +46,7 @@ def assert_first_cells_turn(before, after):
 
 
 def test_an_error_above_the_first_cells_is_announced_with_its_remedy(tmp_path):
-    output = morph(pitched(tmp_path, TOLERANCE % "1e-5"), status=1)
+    output = morph(pitched(tmp_path, UNCORRECTED % "1e-5"), status=1)
     assert "At patch 'wall' the motion around the control points is off" \
         in output
     assert "surfaceCorrection yes" in output
@@ -53,11 +54,37 @@ def test_an_error_above_the_first_cells_is_announced_with_its_remedy(tmp_path):
 
 
 def test_the_tolerance_that_the_warning_names_silences_it(tmp_path):
-    output = morph(pitched(tmp_path/"before", TOLERANCE % "1e-5"), status=1)
+    output = morph(pitched(tmp_path/"before", UNCORRECTED % "1e-5"), status=1)
     advice = re.search(r"greedy/tolerance (\S+)", output)[1]
-    output = morph(pitched(tmp_path/"after", TOLERANCE % advice))
+    output = morph(pitched(tmp_path/"after", UNCORRECTED % advice))
     assert "heights of the first cell" not in output
     assert quality(output, "after")[5:] == [0, 0]
+
+
+def test_by_default_thin_first_cells_are_corrected(tmp_path):
+    yes = pitched(tmp_path/"yes", "surfaceCorrection yes; "
+                  + TOLERANCE % "1e-3")
+    morph(yes)
+    case = pitched(tmp_path/"auto", TOLERANCE % "1e-3")
+    output = morph(case)
+    assert output.count("surfaceCorrection is on") == 1
+    assert "heights of the first cell" not in output
+    assert np.array_equal(points_at(case, "1"), points_at(yes, "1"))
+
+
+def test_by_default_thick_first_cells_are_not(tmp_path):
+    case = pitched(tmp_path/"auto", TOLERANCE % "1e-5", first=1e-2, degrees=5)
+    assert "surfaceCorrection is on" not in morph(case)
+    no = pitched(tmp_path/"no", UNCORRECTED % "1e-5", first=1e-2, degrees=5)
+    morph(no)
+    assert np.array_equal(points_at(case, "1"), points_at(no, "1"))
+
+
+@pytest.mark.parametrize("word", ["some", "(yes)"])
+def test_a_wrong_word_for_the_correction_is_an_error(tmp_path, word):
+    output = morph(pitched(tmp_path, f"surfaceCorrection {word};", first=1e-2),
+                   status=1)
+    assert "FOAM FATAL IO ERROR" in output
 
 
 @pytest.mark.parametrize("tolerance", ["1e-3", "1e-5"])
@@ -120,8 +147,7 @@ def floor_case(path, coeffs):
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_thin_layers_follow_their_wall_between_planes_of_symmetry(
         tmp_path, ranks):
-    case = floor_case(tmp_path, "surfaceCorrection yes; "
-                      + TOLERANCE % "1e-3")
+    case = floor_case(tmp_path, TOLERANCE % "1e-3")
     if ranks > 1:
         case.decompose((1, ranks, 1))
     output = morph(case, ranks=ranks)
@@ -145,5 +171,5 @@ def test_thin_layers_follow_their_wall_between_planes_of_symmetry(
 
 
 def test_without_the_correction_thin_layers_fold(tmp_path):
-    output = morph(floor_case(tmp_path, TOLERANCE % "1e-3"), status=1)
+    output = morph(floor_case(tmp_path, UNCORRECTED % "1e-3"), status=1)
     assert "makes the mesh invalid" in output

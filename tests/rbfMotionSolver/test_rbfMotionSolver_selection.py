@@ -146,7 +146,7 @@ def test_the_warning_of_thin_first_cells_names_patch_and_tolerance_that_does(
     # The cells at the top are some 2e-4 high, a hundredth of the tolerance
     thin = {"grading": (1, 1, 1e-3), "cells": (8, 8, 12)}
     case, largest = wavy(tmp_path/"loose", "greedy { tolerance 0.02; }"
-                         "onInvalidMesh ignore;", **thin)
+                         "surfaceCorrection no; onInvalidMesh ignore;", **thin)
     if ranks > 1:
         case.decompose((2, 2, 1))
         ranks = 4
@@ -157,8 +157,8 @@ def test_the_warning_of_thin_first_cells_names_patch_and_tolerance_that_does(
     tolerance = float(said.group(3))
     assert 0 < tolerance < 0.02
 
-    case, _ = wavy(tmp_path/"advised", f"greedy {{ tolerance {tolerance}; }}",
-                   **thin)
+    case, _ = wavy(tmp_path/"advised", "surfaceCorrection no;"
+                   f" greedy {{ tolerance {tolerance}; }}", **thin)
     assert "heights of the first cell" not in case.run("moveDynamicMesh")
 
 
