@@ -56,6 +56,7 @@ EXPLAINED = [
 NOT_A_USERS = {
     "rbfMotionState": "the file that a restart reads",
     "pointDisplacementField": "OpenFOAM's own field file",
+    "motionZone": "entries of OpenFOAM's, which the solvers refuse",
     "prescribedDisplacement": "the type of a displacement: in each table",
 }
 

@@ -140,7 +140,7 @@ static void reportInvalid
         record.note(fraction, fraction.value(), 0, 1);
     }
     record.set("moved", 0);
-    record.write();
+    record.writeReport();
 }
 
 
@@ -268,7 +268,7 @@ int main(int argc, char *argv[])
     {
         morphMeshOutput::writeMesh(mesh, newPoints, solvers, overwrite);
         morphMeshOutput::writeQuality(mesh, before, after);
-        record.write();
+        record.writeReport();
     }
 
     Info<< nl << "Wall time [s]: reading " << readTime

@@ -86,7 +86,7 @@ static autoPtr<ffdBoxes> boxesOf(const fvMesh& mesh, const motionSolver& solver)
     {
         return nullptr;
     }
-    autoPtr<ffdBoxes> boxes(new ffdBoxes(ffd->coeffDict()));
+    autoPtr<ffdBoxes> boxes(new ffdBoxes(ffd->coeffDict(), &mesh));
     boxes->setPoints(ffd->points0(), mesh.edges());
     boxes->update(mesh.time().timeOutputValue());
     return boxes;

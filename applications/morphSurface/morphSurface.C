@@ -169,7 +169,8 @@ int main(int argc, char *argv[])
         readBoxes
         (
             args.getOrDefault<fileName>("dict", "constant/dynamicMeshDict")
-        )
+        ),
+        nullptr
     );
     triSurface surface(input);
     const pointField points(surface.points());

@@ -49,10 +49,11 @@ static scalar median(scalarList times)
 }
 
 
-static void ours(const dictionary& dict, const pointField& points)
+static void ours(const dictionary& dict, const polyMesh& mesh)
 {
     const label repeats = 7;
-    ffdBoxes boxes(dict);
+    const pointField& points = mesh.points();
+    ffdBoxes boxes(dict, &mesh);
     scalarList certificate(repeats), preparation(repeats), evaluation(repeats);
     scalar largest = 0;
     for (label i = 0; i < repeats; ++i)
@@ -119,7 +120,7 @@ int main(int argc, char *argv[])
 
     for (const entry& e : dict.subDict("cases"))
     {
-        ours(e.dict(), mesh.points());
+        ours(e.dict(), mesh);
     }
     if (dict.found("volumetricBSplines"))
     {

@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "controlGeometry.H"
+#include "foamCompat.H"
 #include "ListListOps.H"
 #include "motionSolver.H"
 #include "OFstream.H"
@@ -35,8 +36,7 @@ static List<labelList> gatheredLines(const controlShape& shape)
 {
     labelList nPoints(Pstream::nProcs(), Zero);
     nPoints[Pstream::myProcNo()] = shape.points.size();
-    Pstream::gatherList(nPoints);
-    Pstream::scatterList(nPoints);
+    foamCompat::allGatherList(nPoints);
 
     label offset = 0;
     for (label rank = 0; rank < Pstream::myProcNo(); ++rank)

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "controlPointGroup.H"
 #include "dictionaryChecks.H"
+#include "pointDisplacementField.H"
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "wedgePolyPatch.H"
@@ -210,7 +211,10 @@ void Foam::controlPointGroup::readNormal()
     const auto& field =
         mesh_.lookupObject<pointVectorField>("pointDisplacement");
     const pointPatchVectorField& condition =
-        field.boundaryField()[patches_[0]];
+        pointDisplacementField::condition
+        (
+            field, mesh_.boundaryMesh()[patches_[0]]
+        );
 
     if (isA<fixedNormalSlipPointPatchField<vector>>(condition))
     {
@@ -346,7 +350,10 @@ bool Foam::controlPointGroup::moves() const
     {
         const auto& condition = refCast<const valuePointPatchField<vector>>
         (
-            field.boundaryField()[patchi]
+            pointDisplacementField::condition
+            (
+                field, mesh_.boundaryMesh()[patchi]
+            )
         );
         some =
             some

@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "controlPointGroups.H"
 #include "basicSymmetryPointPatchField.H"
 #include "calculatedPointPatchField.H"
+#include "pointDisplacementField.H"
 #include "pointFields.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
@@ -110,10 +111,13 @@ void Foam::controlPointGroups::groupsFromField(const dictionary& coeffs)
     typedef controlPointGroup::role role;
     for (const role r : {role::moving, role::sliding})
     {
-        forAllReverse(pointDisplacement_.boundaryField(), patchi)
+        forAllReverse(mesh_.boundaryMesh(), patchi)
         {
             const pointPatchVectorField& condition =
-                pointDisplacement_.boundaryField()[patchi];
+                pointDisplacementField::condition
+                (
+                    pointDisplacement_, mesh_.boundaryMesh()[patchi]
+                );
             const bool slides = slidingCondition(condition);
             if
             (
@@ -137,8 +141,15 @@ void Foam::controlPointGroups::checkConditions
     for (const pointPatchVectorField& condition
         : pointDisplacement_.boundaryField())
     {
-        const polyPatch& patch =
-            mesh_.boundaryMesh()[condition.patch().index()];
+        if (pointDisplacementField::patchIndex(condition) < 0)
+        {
+            checkPointPatch(coeffs, condition);
+            continue;
+        }
+        const polyPatch& patch = mesh_.boundaryMesh()
+        [
+            pointDisplacementField::patchIndex(condition)
+        ];
         if
         (
             !condition.fixesValue()
@@ -160,6 +171,28 @@ void Foam::controlPointGroups::checkConditions
                 << exit(FatalIOError);
         }
     }
+}
+
+
+void Foam::controlPointGroups::checkPointPatch
+(
+    const dictionary& coeffs,
+    const pointPatchVectorField& condition
+) const
+{
+    if (!condition.fixesValue() && !slidingCondition(condition))
+    {
+        return;
+    }
+    FatalIOErrorInFunction(coeffs)
+        << "The pointDisplacement condition of '" << condition.patch().name()
+        << "' has type '" << condition.type() << "'," << nl
+        << "    but that is a patch of points without faces, which is not"
+        << " controlled by its condition" << nl
+        << "    Make its condition calculated, put its points into a pointZone"
+        << " and add to 'controlPoints'" << nl
+        << "    " << condition.patch().name() << " { type moving; pointZones"
+        << " (...); displacement { ... } }" << nl << exit(FatalIOError);
 }
 
 

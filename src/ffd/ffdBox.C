@@ -26,20 +26,24 @@ static const scalar onFace = 1e-8;
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ffdBox::ffdBox(const dictionary& dict)
+Foam::ffdBox::ffdBox
+(
+    const dictionary& dict,
+    const objectRegistry* registry
+)
 :
     dict_(dict),
     name_(dict.dictName()),
     settings_(ffdBoxSettings::read(dict))
 {
-    readParameters();
+    readParameters(registry);
     control_.setZero(settings_.lattice->size(), 3);
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ffdBox::readParameters()
+void Foam::ffdBox::readParameters(const objectRegistry* registry)
 {
     for (const entry& e : dict_.subDict("parameters"))
     {
@@ -50,7 +54,7 @@ void Foam::ffdBox::readParameters()
                 << e.keyword() << " { value 0; moves ( ((i j k) (x y z)) ); }"
                 << nl << exit(FatalIOError);
         }
-        parameters_.append(new ffdParameter(e.dict()));
+        parameters_.append(new ffdParameter(e.dict(), registry));
         moves_.append(readMoves(parameters_.last()));
     }
 }

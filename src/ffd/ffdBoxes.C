@@ -20,9 +20,14 @@ Foam::ffdBoxes::combinationNames
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ffdBoxes::ffdBoxes(const dictionary& dict)
+Foam::ffdBoxes::ffdBoxes
+(
+    const dictionary& dict,
+    const objectRegistry* registry
+)
 :
     dict_(dict),
+    registry_(registry),
     combine_
     (
         dictionaryChecks::getChoice
@@ -59,7 +64,7 @@ void Foam::ffdBoxes::readBoxes()
                 << "Entry '" << e.keyword() << "' has to be the dictionary of"
                 << " a box" << nl << exit(FatalIOError);
         }
-        boxes_.append(new ffdBox(e.dict()));
+        boxes_.append(new ffdBox(e.dict(), registry_));
         forAll(boxes_.last().parameters(), i)
         {
             boxOf_.append(boxes_.size() - 1);

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdMeasures.H"
 #include "eigenFields.H"
+#include "foamCompat.H"
 #include "IOmanip.H"
 #include "ListListOps.H"
 #include "Pstream.H"
@@ -85,7 +86,7 @@ Foam::ffdMeasures::ffdMeasures
         before_ = morph::surfaceMeasures(asVectors(before), triangles);
         after_ = morph::surfaceMeasures(asVectors(after), triangles);
     }
-    Pstream::scatter(closed_);
+    foamCompat::broadcast(closed_);
 
     forAll(names_, i)
     {

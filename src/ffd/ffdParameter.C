@@ -5,14 +5,19 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdParameter.H"
 #include "dictionaryChecks.H"
+#include "foamCompat.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ffdParameter::ffdParameter(const dictionary& dict)
+Foam::ffdParameter::ffdParameter
+(
+    const dictionary& dict,
+    const objectRegistry* registry
+)
 :
     dict_(dict),
     name_(dict.dictName()),
-    function_(Function1<scalar>::New("value", dict)),
+    function_(foamCompat::function1<scalar>("value", dict, registry)),
     min_(dict.getOrDefault<scalar>("min", -GREAT)),
     max_(dict.getOrDefault<scalar>("max", GREAT)),
     moves_(dict.lookup("moves")),

@@ -9,6 +9,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "morphVersion.H"
+#include "motionZone.H"
 #include "pointDisplacementField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -48,13 +49,13 @@ Foam::ffdMotionSolver::ffdMotionSolver
         pointVectorField
         (
             pointDisplacementField::io(mesh),
-            pointMesh::New(mesh),
+            foamCompat::pointMeshOf(mesh),
             dimensionedVector(dimLength, Zero)
         ),
         pointIOField(points0IO(mesh)),
         typeName
     ),
-    boxes_(checkedCoeffDict()),
+    boxes_(checkedCoeffDict(), &mesh),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
@@ -71,7 +72,7 @@ Foam::ffdMotionSolver::ffdMotionSolver
 )
 :
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
-    boxes_(checkedCoeffDict()),
+    boxes_(checkedCoeffDict(), &mesh),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
 {
     foamCompat::registerObject(pointDisplacement_);
@@ -89,6 +90,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
     {
         wordList keys(ffdBoxes::keys());
         keys.append("onInvalidMesh");
+        keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(coeffDict(), keys);
     }
     return coeffDict();
@@ -98,7 +100,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
 void Foam::ffdMotionSolver::initialise()
 {
     morphVersion::announce();
-    if (!moveAllCells())
+    if (!motionZone(*this, coeffDict(), mesh()).wholeMesh())
     {
         FatalIOErrorInFunction(*this)
             << "Entries 'cellZone' and 'cellSet' have no meaning for "

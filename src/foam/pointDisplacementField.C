@@ -49,4 +49,34 @@ void Foam::pointDisplacementField::registerAndRead
 }
 
 
+const Foam::pointPatchVectorField& Foam::pointDisplacementField::condition
+(
+    const pointVectorField& pointDisplacement,
+    const polyPatch& patch
+)
+{
+    const label patchi =
+        pointDisplacement.mesh().boundary().findPatchID(patch.name());
+    if (patchi < 0)
+    {
+        FatalErrorInFunction
+            << "The mesh of points has no patch '" << patch.name()
+            << "', which the mesh of faces has" << nl
+            << "    Renew or remove polyMesh/pointMesh/boundary" << nl
+            << exit(FatalError);
+    }
+    return pointDisplacement.boundaryField()[patchi];
+}
+
+
+Foam::label Foam::pointDisplacementField::patchIndex
+(
+    const pointPatchVectorField& condition
+)
+{
+    return condition.patch().boundaryMesh().mesh()().boundaryMesh()
+        .findPatchID(condition.patch().name());
+}
+
+
 // ************************************************************************* //

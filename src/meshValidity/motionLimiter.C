@@ -127,7 +127,7 @@ void Foam::motionLimiter::refuse
     if (record)
     {
         record->note(fraction, attainable, 0, of.nSteps);
-        record->write();
+        record->writeReport();
     }
     Info<< failed << endl;
     FatalIOErrorInFunction(dict_)

@@ -98,7 +98,7 @@ void Foam::motionRecord::note
 }
 
 
-void Foam::motionRecord::write() const
+void Foam::motionRecord::writeReport() const
 {
     if (!reports_)
     {

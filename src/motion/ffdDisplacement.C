@@ -32,7 +32,7 @@ Foam::ffdDisplacement::ffdDisplacement
 :
     prescribedDisplacement(dict, mesh),
     nListed_(nListed),
-    boxes_(dict)
+    boxes_(dict, &mesh)
 {
     wordList keys(ffdBoxes::keys());
     keys.append("type");

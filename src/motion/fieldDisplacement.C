@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fieldDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "pointDisplacementField.H"
 #include "pointFields.H"
 #include "valuePointPatchField.H"
 
@@ -51,7 +52,11 @@ Foam::fieldDisplacement::fieldDisplacement
 
     for (const label patchi : patches)
     {
-        const pointPatchVectorField& condition = field.boundaryField()[patchi];
+        const pointPatchVectorField& condition =
+            pointDisplacementField::condition
+            (
+                field, mesh.boundaryMesh()[patchi]
+            );
         if (!condition.fixesValue())
         {
             FatalIOErrorInFunction(dict)
@@ -83,7 +88,10 @@ Foam::tmp<Foam::vectorField> Foam::fieldDisplacement::displacement
     {
         const auto& condition = refCast<const valuePointPatchField<vector>>
         (
-            field.boundaryField()[patchi]
+            pointDisplacementField::condition
+            (
+                field, mesh().boundaryMesh()[patchi]
+            )
         );
         const labelList& meshPoints = condition.patch().meshPoints();
         forAll(meshPoints, i)

@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fileDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "foamCompat.H"
 #include "StringStream.H"
 #include "Time.H"
 
@@ -94,8 +95,8 @@ void Foam::fileDisplacement::read(const fileName& file)
     }
 
     dictionaryChecks::stopIf(dict(), message);
-    Pstream::scatter(positions);
-    Pstream::scatter(values);
+    foamCompat::broadcast(positions);
+    foamCompat::broadcast(values);
     table_.reset(new positionTable(pointField(positions)));
     values_ = values;
 }

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "tabulatedDisplacement.H"
 #include "dictionaryChecks.H"
+#include "foamCompat.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -25,7 +26,7 @@ Foam::tabulatedDisplacement::tabulatedDisplacement
 
     if (dict.found("scale"))
     {
-        scale_ = Function1<scalar>::New("scale", dict);
+        scale_ = foamCompat::function1<scalar>("scale", dict, &mesh);
     }
 }
 

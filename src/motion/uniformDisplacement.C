@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "uniformDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "foamCompat.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -32,7 +33,7 @@ Foam::uniformDisplacement::uniformDisplacement
 )
 :
     prescribedDisplacement(dict, mesh),
-    value_(Function1<vector>::New("value", dict))
+    value_(foamCompat::function1<vector>("value", dict, &mesh))
 {
     dictionaryChecks::onlyKeys(dict, {"type", "value", "valueCoeffs"});
 }

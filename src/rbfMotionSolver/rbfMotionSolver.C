@@ -10,6 +10,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "morphVersion.H"
 #include "motionRecord.H"
+#include "motionZone.H"
 #include "pointDisplacementField.H"
 #include "StringStream.H"
 
@@ -61,7 +62,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
         pointVectorField
         (
             pointDisplacementField::io(mesh),
-            pointMesh::New(mesh),
+            foamCompat::pointMeshOf(mesh),
             dimensionedVector(dimLength, Zero)
         ),
         pointIOField(points0IO(mesh)),
@@ -116,16 +117,15 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
     // with keys of others
     if (found(typeName + "Coeffs"))
     {
-        dictionaryChecks::onlyKeys
-        (
-            coeffDict(),
-            {
-                "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
-                "controlPoints", "greedy", "selection", "images",
-                "surfaceCorrection", "featureAngle", "exactSliding",
-                "onInvalidMesh", "subSteps"
-            }
-        );
+        wordList keys
+        ({
+            "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
+            "controlPoints", "greedy", "selection", "images",
+            "surfaceCorrection", "featureAngle", "exactSliding",
+            "onInvalidMesh", "subSteps"
+        });
+        keys.append(motionZone::keys());
+        dictionaryChecks::onlyKeys(coeffDict(), keys);
     }
     return coeffDict();
 }
@@ -134,7 +134,7 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 void Foam::rbfMotionSolver::initialise()
 {
     morphVersion::announce();
-    if (!moveAllCells())
+    if (!motionZone(*this, coeffDict(), mesh()).wholeMesh())
     {
         FatalIOErrorInFunction(*this)
             << "Entries 'cellZone' and 'cellSet' have no meaning for "

@@ -351,18 +351,19 @@ void Foam::gatheredFaces::findFeatureEdges(const scalar featureAngle)
     const auto at = facesAtEdges();
     forAllConstIters(at, iter)
     {
+        const edge& e = iter.key();
         const labelList& these = iter.val();
         for (label i = 1; i < these.size(); ++i)
         {
             const scalar cosine = cosineAcross
             (
-                iter.key(), faces_[these[0]], faces_[these[i]], points_
+                e, faces_[these[0]], faces_[these[i]], points_
             );
             if (cosine < Foam::cos(featureAngle))
             {
                 sharp.append
                 (
-                    edge(iter.key().minVertex(), iter.key().maxVertex())
+                    edge(min(e.start(), e.end()), max(e.start(), e.end()))
                 );
                 break;
             }

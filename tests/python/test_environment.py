@@ -97,3 +97,71 @@ def test_a_tutorial_that_is_nowhere_says_so(tmp_path):
     done = bash(f"{tmp_path}/tutorials/ffd2D/Allrun", {"PATH": "/usr/bin:/bin"})
     assert done.returncode == 1
     assert b"neither in ../.. nor installed" in done.stdout
+
+
+@pytest.fixture
+def source_tree(machine, tmp_path):
+    """A copy of what Allwmake needs, objects of former builds, and a wmake
+    that compiles nothing."""
+    root = tmp_path/"morphFoam"
+    root.mkdir()
+    for name in ("Allwmake", "VERSION", "etc"):
+        copy = shutil.copytree if (ROOT/name).is_dir() else shutil.copy
+        copy(ROOT/name, root/name)
+    (tmp_path/"eigen/Eigen").mkdir(parents=True)
+    (tmp_path/"eigen/Eigen/Dense").touch()
+    machine["EIGEN_INC"] = str(tmp_path/"eigen")
+    wmake = tmp_path/"bin/wmake"
+    wmake.write_text("#!/bin/sh\n[ $1 != -show-cxx ] || echo $CXX_OF_WMAKE\n")
+    wmake.chmod(0o755)
+    for folder in ("Make", "applications/a/Make", "benchmarks/b/Make",
+                   "src/catalyst/Make", "tests/programs/c/Make"):
+        for options in (machine["WM_OPTIONS"], "linux64ClangDPInt32Opt"):
+            (root/folder/options).mkdir(parents=True)
+            (root/folder/options/"a.o").touch()
+    return root
+
+
+def build(root, environment, **variables):
+    """Run Allwmake: what it printed, and the objects of this machine's options
+    that are still there."""
+    done = subprocess.run(
+        ["bash", "./Allwmake"], cwd=root, env={**environment, **variables},
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=True)
+    return done.stdout.decode(), sorted(
+        root.glob(f"**/{environment['WM_OPTIONS']}/a.o"))
+
+
+def test_objects_of_another_openfoam_are_not_used(machine, source_tree):
+    """wmake tells them apart by WM_OPTIONS, which has no version in it."""
+    root = source_tree
+    assert build(root, machine)[1] == []
+    kept = root/"Make"/machine["WM_OPTIONS"]/"a.o"
+    kept.parent.mkdir()
+    kept.touch()
+    library = root/"build"/machine["WM_OPTIONS"]/"lib/library.so"
+    library.parent.mkdir()
+    library.touch()
+    assert build(root, machine)[1] == [kept] and library.exists()
+    assert build(root, machine, WM_PROJECT_VERSION="v2512")[1] == []
+    assert not library.exists()
+    # What has other options is told apart already
+    assert len(list(root.glob("**/linux64ClangDPInt32Opt/a.o"))) == 5
+
+
+def test_a_patched_openfoam_is_another(machine, source_tree):
+    api = pathlib.Path(machine["WM_PROJECT_DIR"])/"META-INFO/api-info"
+    api.parent.mkdir(parents=True)
+    kept = source_tree/"Make"/machine["WM_OPTIONS"]/"a.o"
+    for patch, objects in (("0", []), ("0", [kept]), ("230612", [])):
+        api.write_text(f"api=2312\npatch={patch}\n")
+        assert build(source_tree, machine)[1] == objects
+        kept.parent.mkdir(exist_ok=True)
+        kept.touch()
+
+
+@pytest.mark.parametrize("compiler, found", [("true", True), ("false", False)])
+def test_blas_is_looked_for_with_the_compiler_of_wmake(
+        machine, source_tree, compiler, found):
+    said, _ = build(source_tree, machine, CXX_OF_WMAKE=compiler)
+    assert ("without OpenBLAS" not in said) == found

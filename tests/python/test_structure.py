@@ -97,6 +97,20 @@ def test_version_switches_are_in_one_header():
     assert users <= {"foamCompat.H"}
 
 
+@pytest.mark.parametrize("call", [
+    r"scatterList|listCombineScatter",  # wrong or deprecated from v2406 on
+    r"Pstream::scatter\b",              # deprecated from v2406 on
+    r"pointMesh::New\b",                # loses patches of points from v2412 on
+    r"Function1<\w+>::New\b",           # needs a registry from v2112 on
+    r"\bmoveAllCells\b",                # reads another place from v2212 on
+    r"\b(?:min|max)Vertex\b",           # gone from v2506 on
+])
+def test_what_differs_between_releases_is_called_in_one_place(call):
+    users = {path.name for path in sources("src") + sources("applications")
+             if re.search(call, path.read_text())}
+    assert users <= {"foamCompat.H", "motionZone.C"}
+
+
 def test_every_source_says_whose_it_is_and_under_which_licence():
     files = [path for folder in ("src", "applications", "benchmarks", "tests",
                                  "tutorials", "python", "docs")

@@ -292,9 +292,15 @@ def test_a_condition_that_gives_no_number_is_an_error(tmp_path, value,
             phrases, 1)
 
 
+# OpenFOAM's base class reads the entry beside the coefficients up to v2206 and
+# among them from v2212 on: an entry in either place has to be heard everywhere
+@pytest.mark.parametrize("among, beside", [("inner", None), (None, "inner")])
 @pytest.mark.parametrize("entry", ["cellZone", "cellSet"])
-def test_a_part_of_the_mesh_cannot_be_selected(tmp_path, entry):
-    case = rbf_case(tmp_path, coeffs=with_top("") + f"{entry} inner;")
+def test_a_part_of_the_mesh_cannot_be_selected(tmp_path, entry, among, beside):
+    case = rbf_case(
+        tmp_path,
+        coeffs=with_top("") + (f"{entry} {among};" if among else ""),
+        extra=f"{entry} {beside};" if beside else "")
     case.write("system/topoSetDict", "dictionary",
                "actions ( { name inner; type cellSet; action new;"
                " source boxToCell; box (0 0 0) (1 1 0.5); }"
@@ -302,6 +308,19 @@ def test_a_part_of_the_mesh_cannot_be_selected(tmp_path, entry):
                " source setToCellZone; set inner; } );")
     case.run("topoSet")
     refused(case, [f"'{entry}'"], 1)
+
+
+def test_zones_that_differ_are_an_error(tmp_path):
+    case = rbf_case(tmp_path, coeffs=with_top("") + "cellZone outer;",
+                    extra="cellZone none;")
+    refused(case, ["'cellZone' is here and beside the coefficients",
+                   "Remove one of them"], 1)
+
+
+def test_no_zone_is_the_whole_mesh(tmp_path):
+    # 'none' is OpenFOAM's own word for it
+    case = rbf_case(tmp_path, coeffs=with_top("") + "cellZone none;")
+    case.run("moveDynamicMesh")
 
 
 def test_the_second_dictionary_of_a_name_is_not_overlooked(tmp_path):

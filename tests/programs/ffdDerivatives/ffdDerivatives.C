@@ -106,7 +106,7 @@ int main(int argc, char *argv[])
 
     const pointField points(ellipsoid());
     const morph::Triangles faces(triangles());
-    ffdBoxes boxes(dict);
+    ffdBoxes boxes(dict, &runTime);
     boxes.setPoints(points, edgeList());
     boxes.update(runTime.value());
     const scalarField values(boxes.values());

@@ -1,0 +1,81 @@
+/*---------------------------------------------------------------------------*\
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "motionZone.H"
+#include "dictionary.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Both in the file's dictionary and in that of the coefficients, they have to
+// say the same
+static dictionary selection(const dictionary& dict, const dictionary& coeffs)
+{
+    dictionary selected(dict.name());
+    for (const word& key : motionZone::keys())
+    {
+        const entry* beside = dict.findEntry(key, keyType::LITERAL);
+        const entry* among = coeffs.findEntry(key, keyType::LITERAL);
+        if (beside && among && *beside != *among)
+        {
+            FatalIOErrorInFunction(coeffs)
+                << "Entry '" << key << "' is here and beside the"
+                << " coefficients, with different values" << nl
+                << "    Remove one of them: releases of OpenFOAM differ in"
+                << " which they read" << nl << exit(FatalIOError);
+        }
+        if (among || beside)
+        {
+            selected.add(among ? *among : *beside);
+        }
+    }
+    return selected;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::motionZone::motionZone
+(
+    const dictionary& dict,
+    const dictionary& coeffs,
+    const polyMesh& mesh
+)
+:
+    zone_(nullptr)
+{
+    const dictionary selected(selection(dict, coeffs));
+    if (selected.size())
+    {
+        zone_.reset(new zoneMotion(selected, mesh));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::motionZone::keys()
+{
+    return {"cellZone", "cellSet"};
+}
+
+
+bool Foam::motionZone::wholeMesh() const
+{
+    return !zone_ || zone_->moveAllCells();
+}
+
+
+const Foam::labelList& Foam::motionZone::pointLabels() const
+{
+    return zone_ ? zone_->pointIDs() : labelList::null();
+}
+
+
+// ************************************************************************* //
