@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 DICTIONARIES = [
     ("rbfMotionSolverCoeffs", "rbfMotionSolver",
      ["rbfMotionSolver", "rbfMotionSettings", "controlPointGroups",
-      "motionLimiter"]),
+      "motionLimiter", "motionZone"]),
     ("A group of controlPoints", "controlPointGroup", []),
     ("surface or target: a cylinder", "cylinderSurface", []),
     ("surface or target: others", "analyticSurface", ["slidingSurface"]),
@@ -35,7 +35,7 @@ DICTIONARIES = [
      ["fileDisplacement", "tabulatedDisplacement"]),
     ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
     ("ffdMotionSolverCoeffs", "ffdMotionSolver",
-     ["ffdMotionSolver", "ffdBoxes", "motionLimiter"]),
+     ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"]),
     ("A box of boxes", "ffdBox", ["ffdBox", "ffdBoxSettings", "ffdFrames"]),
     ("A parameter of a box", "ffdParameter", []),
     ("Function object motionControls", "motionControls", []),

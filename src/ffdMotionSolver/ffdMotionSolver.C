@@ -9,7 +9,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "morphVersion.H"
-#include "motionZone.H"
 #include "pointDisplacementField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -100,14 +99,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
 void Foam::ffdMotionSolver::initialise()
 {
     morphVersion::announce();
-    if (!motionZone(*this, coeffDict(), mesh()).wholeMesh())
-    {
-        FatalIOErrorInFunction(*this)
-            << "Entries 'cellZone' and 'cellSet' have no meaning for "
-            << typeName << nl
-            << "    Remove them; boxes say which part of the mesh moves" << nl
-            << exit(FatalIOError);
-    }
+    zone_.reset(new motionZone(*this, coeffDict(), mesh()));
 }
 
 
@@ -243,6 +235,7 @@ Foam::vectorField Foam::ffdMotionSolver::displacement()
     }
     vectorField displacement(reduced_->expand(inPlane));
     constrain(displacement);
+    zone_->restrict(displacement);
     return displacement;
 }
 
@@ -251,7 +244,10 @@ Foam::vectorField Foam::ffdMotionSolver::displacement()
 
 Foam::tmp<Foam::pointField> Foam::ffdMotionSolver::curPoints() const
 {
-    return points0() + pointDisplacement_.primitiveField();
+    return zone_->moved
+    (
+        points0(), pointDisplacement_.primitiveField(), mesh().points()
+    );
 }
 
 
@@ -290,6 +286,7 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 
     reduced_.clear();
     symmetry_.clear();
+    zone_.reset(new motionZone(*this, coeffDict(), mesh()));
 }
 
 

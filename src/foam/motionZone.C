@@ -78,4 +78,38 @@ const Foam::labelList& Foam::motionZone::pointLabels() const
 }
 
 
+void Foam::motionZone::restrict(vectorField& displacement) const
+{
+    if (!wholeMesh())
+    {
+        const vectorField all(displacement);
+        displacement = Zero;
+        for (const label pointi : pointLabels())
+        {
+            displacement[pointi] = all[pointi];
+        }
+    }
+}
+
+
+Foam::tmp<Foam::pointField> Foam::motionZone::moved
+(
+    const pointField& points0,
+    const vectorField& displacement,
+    const pointField& present
+) const
+{
+    if (wholeMesh())
+    {
+        return points0 + displacement;
+    }
+    auto points = tmp<pointField>::New(present);
+    for (const label pointi : pointLabels())
+    {
+        points.ref()[pointi] = points0[pointi] + displacement[pointi];
+    }
+    return points;
+}
+
+
 // ************************************************************************* //

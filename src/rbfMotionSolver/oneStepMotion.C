@@ -98,7 +98,7 @@ Foam::rbfMotion Foam::oneStepMotion::move(const bool check)
     }
     first_ = false;
     problem_.constrain(motion.inPlane);
-    motion.displacement = problem_.reduced().expand(motion.inPlane);
+    motion.displacement = problem_.expand(motion.inPlane);
     motion.times.lap(motionTimes::propagation);
 
     if (!check || problem_.isValid(motion.displacement))
@@ -132,7 +132,7 @@ void Foam::oneStepMotion::makePart
         {
             motion.inPlane = part*motion.increment;
             problem_.constrain(motion.inPlane, part);
-            motion.displacement = problem_.reduced().expand(motion.inPlane);
+            motion.displacement = problem_.expand(motion.inPlane);
             if (problem_.isValid(motion.displacement))
             {
                 motion.fraction = part;
@@ -141,7 +141,7 @@ void Foam::oneStepMotion::makePart
             part *= 0.9;
         }
     }
-    motion.displacement = problem_.reduced().expand(motion.increment);
+    motion.displacement = problem_.expand(motion.increment);
     motion.displacement *= fraction;
 }
 

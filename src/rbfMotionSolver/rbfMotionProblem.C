@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "rbfMotionProblem.H"
+#include "foamCompat.H"
 #include "invalidMotion.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -31,6 +32,7 @@ Foam::rbfMotionProblem::rbfMotionProblem
     const pointField& points0,
     const controlPointGroups& groups,
     const rbfMotionSettings& settings,
+    const motionZone& zone,
     const scalar formerRadius
 )
 :
@@ -38,7 +40,9 @@ Foam::rbfMotionProblem::rbfMotionProblem
     dict_(dict),
     points0_(points0),
     settings_(settings),
+    zone_(zone),
     reduced_(mesh, points0),
+    inZone_(regionsInZone()),
     images_(mesh, dict, points0, reduced_.plane(), groups, settings.images),
     controlPoints_
     (
@@ -55,6 +59,18 @@ Foam::rbfMotionProblem::rbfMotionProblem
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::boolList Foam::rbfMotionProblem::regionsInZone() const
+{
+    boolList inZone(reduced_.nRegions(), zone_.wholeMesh());
+    for (const label pointi : zone_.pointLabels())
+    {
+        inZone[reduced_.regionOf(pointi)] = true;
+    }
+    foamCompat::allCombineList(inZone, orEqOp<bool>());
+    return inZone;
+}
+
 
 void Foam::rbfMotionProblem::findFirstCellHeight()
 {
@@ -140,7 +156,9 @@ bool Foam::rbfMotionProblem::moves(const label regioni) const
     // A body that is about to start moves by round-off, a pattern not worth
     // control points
     return
-        radius() > 0 && controlPoints_.largestValue(regioni) > SMALL*span_;
+        inZone_[regioni]
+     && radius() > 0
+     && controlPoints_.largestValue(regioni) > SMALL*span_;
 }
 
 
@@ -198,6 +216,17 @@ void Foam::rbfMotionProblem::constrain
         reduced_.match(inPlane);
     }
     controlPoints_.impose(inPlane, settings_.exactSliding, fraction);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionProblem::expand
+(
+    const vectorField& inPlane
+) const
+{
+    tmp<vectorField> displacement(reduced_.expand(inPlane));
+    zone_.restrict(displacement.ref());
+    return displacement;
 }
 
 

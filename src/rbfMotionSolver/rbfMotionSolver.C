@@ -10,7 +10,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "morphVersion.H"
 #include "motionRecord.H"
-#include "motionZone.H"
 #include "pointDisplacementField.H"
 #include "StringStream.H"
 
@@ -134,20 +133,13 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 void Foam::rbfMotionSolver::initialise()
 {
     morphVersion::announce();
-    if (!motionZone(*this, coeffDict(), mesh()).wholeMesh())
-    {
-        FatalIOErrorInFunction(*this)
-            << "Entries 'cellZone' and 'cellSet' have no meaning for "
-            << typeName << ", which moves the whole mesh" << nl
-            << "    Remove them; what should stay is a group of type fixed"
-            << nl << exit(FatalIOError);
-    }
     makeGroups();
 }
 
 
 void Foam::rbfMotionSolver::makeGroups()
 {
+    zone_.reset(new motionZone(*this, coeffDict(), mesh()));
     groups_.reset
     (
         new controlPointGroups(mesh(), coeffDict(), pointDisplacement_)
@@ -164,7 +156,7 @@ void Foam::rbfMotionSolver::prepare()
         (
             new rbfMotionProblem
             (
-                mesh(), coeffDict(), points0(), groups_(), settings_,
+                mesh(), coeffDict(), points0(), groups_(), settings_, zone_(),
                 state_.supportRadius()
             )
         );
@@ -225,7 +217,7 @@ void Foam::rbfMotionSolver::limit(rbfMotion& motion)
     const motionLimiter::limit found = limiter.limitPart
     (
         points0() + motion.displacement,
-        problem_->reduced().expand(motion.increment)(),
+        problem_->expand(motion.increment)(),
         {motion.nMade/n, (motion.nMade + 1)/n, motion.nSteps},
         remedy()
     );
@@ -289,7 +281,10 @@ Foam::string Foam::rbfMotionSolver::remedy() const
 
 Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 {
-    return points0() + pointDisplacement_.primitiveField();
+    return zone_->moved
+    (
+        points0(), pointDisplacement_.primitiveField(), mesh().points()
+    );
 }
 
 

@@ -176,7 +176,7 @@ Foam::rbfMotion Foam::subSteppedMotion::move
 
         const bool valid =
             !check
-         || problem_.isValid(problem_.reduced().expand(inPlane)());
+         || problem_.isValid(problem_.expand(inPlane)());
         motion.times.lap(motionTimes::meshCheck);
         if (!valid)
         {
@@ -187,7 +187,7 @@ Foam::rbfMotion Foam::subSteppedMotion::move
         ++motion.nMade;
     }
     motion.fraction = min(fraction, scalar(motion.nMade)/n);
-    motion.displacement = problem_.reduced().expand(motion.inPlane);
+    motion.displacement = problem_.expand(motion.inPlane);
     return motion;
 }
 

@@ -156,3 +156,79 @@ def test_regions_are_as_they_would_be_alone(tmp_path):
     alone.run("moveDynamicMesh")
     part = in_ring(case)
     assert np.array_equal(points_at(case, "1")[part], points_at(alone, "1"))
+
+
+# --- zones: a part of the mesh by 'cellZone' or 'cellSet'
+
+SHIFT = "velocity (0.1 0 0.2)"
+SOLID = ("motionSolverLibs (fvMotionSolvers); motionSolver solidBody;"
+         " solver solidBody; solidBodyMotionFunction linearMotion;"
+         " solidBodyCoeffs { cellZone back;"
+         " solidBodyMotionFunction linearMotion;"
+         f" linearMotionCoeffs {{ {SHIFT}; }} }}"
+         f" linearMotionCoeffs {{ {SHIFT}; }}")
+
+
+def zoned_case(path, dictionary, **control):
+    """The mesh with zones ring and back."""
+    case = from_block_mesh(path, mesh(), control)
+    case.write("system/topoSetDict", "dictionary",
+               "actions ( { name ring; type cellSet; action new;"
+               " source zoneToCell; zone ring; }"
+               " { name back; type cellSet; action new; source zoneToCell;"
+               " zone ring; } { name back; type cellSet; action invert; }"
+               " { name back; type cellZoneSet; action new;"
+               " source setToCellZone; set back; } );")
+    case.run("topoSet")
+    case.write("constant/dynamicMeshDict", "dictionary", dictionary)
+    return case
+
+
+def ours(extra=""):
+    return (f"motionSolverLibs (morphMotionSolvers); motionSolver"
+            f" rbfMotionSolver; solver rbfMotionSolver; {extra}"
+            f" rbfMotionSolverCoeffs {{ {TURN} }}")
+
+
+# OpenFOAM's base class reads the entry beside the coefficients up to v2206 and
+# among them from v2212 on: an entry in either place is heard everywhere
+@pytest.mark.parametrize("among", [True, False])
+@pytest.mark.parametrize("entry", ["cellZone", "cellSet"])
+@pytest.mark.parametrize("name, ranks", [("ring", 1), ("ring", 2), ("back", 1)])
+def test_a_zone_is_what_moves(tmp_path, entry, name, ranks, among):
+    chosen = f"{entry} {name};"
+    dictionary = ours("" if among else chosen)
+    if among:
+        dictionary = dictionary.replace("Coeffs {", "Coeffs { " + chosen)
+    case = zoned_case(tmp_path, "dynamicFvMesh dynamicMotionSolverFvMesh;"
+                      + dictionary)
+    if ranks > 1:
+        case.decompose((ranks, 1, 1))
+    case.run("moveDynamicMesh", ranks=ranks)
+    x, after = reference(case), points_at(case, "1")
+    part = in_ring(case)
+    assert np.array_equal(after[~part], x[~part])
+    expected = turned(x[part], 0.3) if name == "ring" else x[part]
+    np.testing.assert_allclose(after[part], expected, rtol=0, atol=1e-13)
+
+
+LISTS = {
+    "list": "dynamicFvMesh dynamicMotionSolverListFvMesh; solvers {{ one {{"
+            " {ours} }} two {{ {solid} }} }}",
+    "multi": "dynamicFvMesh dynamicMultiMotionSolverFvMesh;"
+             " dynamicMultiMotionSolverFvMeshCoeffs {{ one {{ {ours} }}"
+             " two {{ {solid} }} }}"}
+
+
+@pytest.mark.parametrize("kind", LISTS)
+def test_beside_another_solver_each_moves_its_zone(tmp_path, kind):
+    case = zoned_case(tmp_path, LISTS[kind].format(
+        ours=ours("cellZone ring;"), solid=SOLID + " cellZone back;"),
+        end=2)
+    case.run("moveDynamicMesh")
+    x, after = reference(case), points_at(case, "2")
+    part = in_ring(case)
+    np.testing.assert_allclose(after[part], turned(x[part], 0.6), rtol=0,
+                               atol=1e-13)
+    np.testing.assert_allclose(after[~part], x[~part] + [0.2, 0, 0.4], rtol=0,
+                               atol=1e-13)

@@ -292,22 +292,10 @@ def test_a_condition_that_gives_no_number_is_an_error(tmp_path, value,
             phrases, 1)
 
 
-# OpenFOAM's base class reads the entry beside the coefficients up to v2206 and
-# among them from v2212 on: an entry in either place has to be heard everywhere
-@pytest.mark.parametrize("among, beside", [("inner", None), (None, "inner")])
 @pytest.mark.parametrize("entry", ["cellZone", "cellSet"])
-def test_a_part_of_the_mesh_cannot_be_selected(tmp_path, entry, among, beside):
-    case = rbf_case(
-        tmp_path,
-        coeffs=with_top("") + (f"{entry} {among};" if among else ""),
-        extra=f"{entry} {beside};" if beside else "")
-    case.write("system/topoSetDict", "dictionary",
-               "actions ( { name inner; type cellSet; action new;"
-               " source boxToCell; box (0 0 0) (1 1 0.5); }"
-               " { name inner; type cellZoneSet; action new;"
-               " source setToCellZone; set inner; } );")
-    case.run("topoSet")
-    refused(case, [f"'{entry}'"], 1)
+def test_a_zone_that_is_not_there_is_an_error(tmp_path, entry):
+    case = rbf_case(tmp_path, coeffs=with_top("") + f"{entry} nowhere;")
+    assert "nowhere" in case.run("moveDynamicMesh", status=1)
 
 
 def test_zones_that_differ_are_an_error(tmp_path):
