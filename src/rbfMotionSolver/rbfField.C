@@ -5,7 +5,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "rbfField.H"
 #include "eigenFields.H"
+#include "foamCompat.H"
 #include "pstreamCommunicator.H"
+#include "StringStream.H"
+#include "Tuple2.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -29,6 +32,9 @@ static const scalar roughTolerance = 1e-2;
 // Points that determine a linear map
 static const morph::Index linearPoints = 4;
 
+// Of what is prescribed, how far a field may reach without a word
+static const scalar mostOvershoot = 2;
+
 } // End namespace Foam
 
 
@@ -39,7 +45,8 @@ Foam::rbfField::rbfField(rbfMotionProblem& problem, const label regioni)
     problem_(problem),
     region_(regioni),
     cloud_(asVectors(problem.reduced().positions(regioni))),
-    linear_(false)
+    linear_(false),
+    warned_(false)
 {}
 
 
@@ -179,6 +186,130 @@ morph::SelectionResult Foam::rbfField::select
 }
 
 
+Foam::scalar Foam::rbfField::largest
+(
+    const morph::Vectors& displacements,
+    point& where
+) const
+{
+    Tuple2<scalar, point> farthest(0, point::zero);
+    const labelList& points = problem_.reduced().independent(region_);
+    forAll(points, i)
+    {
+        const scalar distance = displacements.row(i).norm();
+        if (distance > farthest.first())
+        {
+            farthest = Tuple2<scalar, point>
+            (
+                distance, problem_.points0()[points[i]]
+            );
+        }
+    }
+    List<Tuple2<scalar, point>> all(Pstream::nProcs());
+    all[Pstream::myProcNo()] = farthest;
+    foamCompat::allGatherList(all);
+    for (const Tuple2<scalar, point>& one : all)
+    {
+        const bool first =
+            one.first() == farthest.first()
+         && before(one.second(), farthest.second());
+        if (one.first() > farthest.first() || first)
+        {
+            farthest = one;
+        }
+    }
+    where = farthest.second();
+    return farthest.first();
+}
+
+
+Foam::string Foam::rbfField::rougherKernel(const scalar allowed) const
+{
+    const morph::Kernel rough
+    (
+        morph::KernelType::wendlandC0, problem_.radius()
+    );
+    if (problem_.settings().kernel == rough.type())
+    {
+        return "";
+    }
+    morph::GreedySelection selection
+    (
+        rough,
+        morph::Polynomial::none,
+        problem_.settings().selection,
+        problem_.images().inReach()
+    );
+    pstreamCommunicator communicator;
+    selection.select(candidates().conditions, communicator);
+    point where;
+    const scalar distance =
+        largest(selection.interpolant()(cloud_), where);
+    if (distance > allowed)
+    {
+        return "";
+    }
+    OStringStream remedy;
+    remedy.precision(3);
+    remedy << "Use 'kernel wendlandC0', with which they go no further than "
+        << distance << " m, or m";
+    return remedy.str();
+}
+
+
+void Foam::rbfField::warnOfOvershoot(const morph::Vectors& displacements)
+{
+    const scalar told = problem_.controlPoints().largestValue(region_);
+    point where;
+    const scalar reached = largest(displacements, where);
+    if (warned_ || linear_ || reached <= mostOvershoot*told)
+    {
+        return;
+    }
+    warned_ = true;
+
+    // The two that contradict most: by difference over distance
+    const std::vector<morph::Vector3> x(selection_->selectedPositions());
+    morph::Vectors at(x.size(), 3);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        at.row(i) = x[i].transpose();
+    }
+    const morph::Vectors s = selection_->interpolant()(at);
+    scalar steepest = 0;
+    std::size_t first = 0;
+    std::size_t second = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            const scalar slope = (s.row(i) - s.row(j)).norm()
+               /max((x[i] - x[j]).norm(), VSMALL);
+            if (slope > steepest)
+            {
+                steepest = slope;
+                first = i;
+                second = j;
+            }
+        }
+    }
+    const string rougher(rougherKernel(mostOvershoot*told));
+    OStringStream message;
+    message.precision(3);
+    message
+        << "Points move by up to " << reached << " m, at " << where
+        << ", where no control point moves by more than " << told << " m" << nl
+        << "    The control points at " << toFoam(x[first]) << " and "
+        << toFoam(x[second]) << ", " << (x[first] - x[second]).norm()
+        << " m apart, move by " << toFoam(s.row(first).transpose()) << " and "
+        << toFoam(s.row(second).transpose()) << nl
+        << "    " << (rougher.empty() ? "M" : rougher.c_str())
+        << "ove them less differently: let one of their patches slide, or give"
+        << " the step between them a gradual displacement";
+    WarningInFunction << message.str().c_str() << endl;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::rbfField::active() const
@@ -232,6 +363,7 @@ void Foam::rbfField::select(rbfMotion& motion, const bool anew)
 void Foam::rbfField::propagate(vectorField& inPlane)
 {
     morph::Vectors s = selection_->interpolant()(cloud_);
+    warnOfOvershoot(s);
     const scalar correctionRadius = problem_.correctionRadius(region_);
     if (correctionRadius > 0)
     {
