@@ -21,6 +21,7 @@ SUBJECTS = {
     "sliding": "Sliding surfaces",
     "rbfMotionSolver": "rbfMotionSolver",
     "ffd": "Boxes and parameters",
+    "shapeConstraints": "Constraints of shapes",
     "ffdMotionSolver": "ffdMotionSolver",
     "meshSymmetry": "Symmetric and periodic meshes",
     "meshValidity": "Invalid meshes",

@@ -36,8 +36,17 @@ DICTIONARIES = [
     ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
     ("ffdMotionSolverCoeffs", "ffdMotionSolver",
      ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"]),
-    ("A box of boxes", "ffdBox", ["ffdBox", "ffdBoxSettings", "ffdFrames"]),
+    ("A box of boxes", "ffdBox",
+     ["ffdBox", "ffdBoxFaces", "ffdBoxSettings", "ffdDeformation",
+      "ffdFrames"]),
     ("A parameter of a box", "ffdParameter", []),
+    ("bulk: many parameters at once", "ffdBulk", []),
+    ("axis: reference axis and variables", "ffdAxis", []),
+    ("A box of type axis", "ffdAxisDeformation", []),
+    ("A box of type lattice", "ffdLatticeFile", []),
+    ("A box around patches", "ffdFit", []),
+    ("constraints of shapes", "shapeConstraint",
+     ["shapeConstraint", "shapeConstraints"]),
     ("Function object motionControls", "motionControls", []),
     ("Function object catalyst", "catalystFunctionObject", []),
     ("A channel of catalyst: mesh", "meshChannel",
@@ -70,6 +79,14 @@ READ_BY_OPENFOAM = {
 # Likewise single entries, as (source, entry)
 NOT_AN_ENTRY = {
     ("controlPointGroup", "n"): "written by OpenFOAM's own condition",
+    ("ffdFit", "boxes"): "the boxes of the dictionary",
+    ("ffdFit", "origin"): "an entry of the box",
+    ("ffdFit", "span"): "an entry of the box",
+    ("ffdFit", "rotation"): "an entry of the box",
+    ("ffdFit", "type"): "an entry of the box",
+    ("ffdBulk", "s"): "a direction",
+    ("ffdBulk", "t"): "a direction",
+    ("ffdBulk", "p"): "a direction",
 }
 
 

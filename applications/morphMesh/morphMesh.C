@@ -39,11 +39,25 @@ Usage
         for each parameter of a lattice at its bounds, as VTK files in the
         folder \c controls beside quality.dat. Also with -dryRun.
 
+      - \par -pictures
+        Like -lattice; for ffdMotionSolver also one picture of every parameter
+        at its bounds, preview.png in that folder.
+
       - \par -derivatives \<patches\>
         For ffdMotionSolver: area, volume and centroid of patches, for example
         '(hull)', with their derivatives by each parameter, and dx/dmu at the
         points of the patches: measures.dat, derivatives.dat and
         derivatives.vtp beside quality.dat. Also with -dryRun.
+
+      - \par -constraints
+        For ffdMotionSolver: the dictionary \c constraints of its coefficients
+        (shapeConstraint.H), on the patches that each names: constraints.dat and
+        constraintDerivatives.dat beside quality.dat. Also with -dryRun.
+
+      - \par -sensitivityFields
+        Of a motion solver whose motion has parameters: dx/dmu of the whole mesh
+        by each, as pointVectorField d_\<parameter\> in the folder of the time.
+        Not with -dryRun.
 
       - \par -region \<name\>
         The mesh region.
@@ -177,11 +191,26 @@ int main(int argc, char *argv[])
         "lattice",
         "Write control points, lattices and each parameter at its bounds as VTK"
     );
+    argList::addBoolOption
+    (
+        "pictures",
+        "Like -lattice, and draw each parameter at its bounds in one picture"
+    );
     argList::addOption
     (
         "derivatives",
         "patches",
         "Write derivatives of area, volume and centroid of these patches"
+    );
+    argList::addBoolOption
+    (
+        "constraints",
+        "Write constraints of shapes with their derivatives"
+    );
+    argList::addBoolOption
+    (
+        "sensitivityFields",
+        "Write dx/dmu of the whole mesh for each parameter, as fields"
     );
     #include "addRegionOption.H"
     #include "setRootCase.H"
@@ -219,13 +248,14 @@ int main(int argc, char *argv[])
     const pointField newPoints(moved(mesh, solvers));
     const scalar solveTime = clock.timeIncrement();
 
-    if (args.found("lattice"))
+    if (args.found("lattice") || args.found("pictures"))
     {
         morphMeshControls::write
         (
             mesh,
             solvers,
-            runTime.globalPath()/morphMeshOutput::folder(mesh)/"controls"
+            runTime.globalPath()/morphMeshOutput::folder(mesh)/"controls",
+            args.found("pictures")
         );
     }
     wordRes patches;
@@ -236,6 +266,16 @@ int main(int argc, char *argv[])
             mesh,
             solvers,
             patches,
+            runTime.globalPath()/morphMeshOutput::folder(mesh)
+        );
+    }
+
+    if (args.found("constraints"))
+    {
+        morphMeshControls::writeConstraints
+        (
+            mesh,
+            solvers,
             runTime.globalPath()/morphMeshOutput::folder(mesh)
         );
     }
@@ -268,6 +308,10 @@ int main(int argc, char *argv[])
     {
         morphMeshOutput::writeMesh(mesh, newPoints, solvers, overwrite);
         morphMeshOutput::writeQuality(mesh, before, after);
+        if (args.found("sensitivityFields"))
+        {
+            morphMeshControls::writeSensitivities(mesh, solvers);
+        }
         record.writeReport();
     }
 

@@ -5,7 +5,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "morphMeshControls.H"
 #include "controlGeometry.H"
+#include "dictionaryEntries.H"
 #include "emptyPolyPatch.H"
+#include "ffdFit.H"
 #include "ffdMeasures.H"
 #include "ffdMotionSolver.H"
 #include "ffdPreview.H"
@@ -13,6 +15,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "OFstream.H"
 #include "OSspecific.H"
 #include "plainText.H"
+#include "motionSensitivities.H"
+#include "pointFields.H"
+#include "pointMesh.H"
+#include "shapeConstraints.H"
 
 #include <limits>
 
@@ -53,7 +59,12 @@ static labelList shownPatches(const fvMesh& mesh)
 }
 
 
-static labelList selectedPatches(const fvMesh& mesh, const wordRes& names)
+static labelList selectedPatches
+(
+    const fvMesh& mesh,
+    const wordRes& names,
+    const char* from
+)
 {
     labelHashSet selected;
     const polyBoundaryMesh& boundary = mesh.boundaryMesh();
@@ -69,7 +80,7 @@ static labelList selectedPatches(const fvMesh& mesh, const wordRes& names)
         wordList there(boundary.names());
         there.setSize(boundary.nNonProcessor());
         FatalErrorInFunction
-            << "Option -derivatives: no patch or patch group is called "
+            << from << ": no patch or patch group is called "
             << plainText::listed(names).c_str() << nl
             << "    Patches: " << plainText::listed(there).c_str() << nl
             << exit(FatalError);
@@ -86,7 +97,13 @@ static autoPtr<ffdBoxes> boxesOf(const fvMesh& mesh, const motionSolver& solver)
     {
         return nullptr;
     }
-    autoPtr<ffdBoxes> boxes(new ffdBoxes(ffd->coeffDict(), &mesh));
+    autoPtr<ffdBoxes> boxes
+    (
+        new ffdBoxes
+        (
+            ffdFit::fitted(ffd->coeffDict(), mesh, ffd->points0()), &mesh
+        )
+    );
     boxes->setPoints(ffd->points0(), mesh.edges());
     boxes->update(mesh.time().timeOutputValue());
     return boxes;
@@ -102,7 +119,8 @@ void Foam::morphMeshControls::write
 (
     const fvMesh& mesh,
     const PtrList<motionSolver>& solvers,
-    const fileName& folder
+    const fileName& folder,
+    const bool pictures
 )
 {
     bool some = false;
@@ -127,6 +145,10 @@ void Foam::morphMeshControls::write
                 facesOf(mesh, shownPatches(mesh)),
                 folder
             );
+            if (pictures)
+            {
+                ffdPreview::draw(folder);
+            }
         }
     }
     if (!some)
@@ -146,7 +168,10 @@ void Foam::morphMeshControls::writeDerivatives
     const fileName& folder
 )
 {
-    const faceList faces(facesOf(mesh, selectedPatches(mesh, patches)));
+    const faceList faces
+    (
+        facesOf(mesh, selectedPatches(mesh, patches, "Option -derivatives"))
+    );
     bool some = false;
     for (const motionSolver& solver : solvers)
     {
@@ -185,6 +210,107 @@ void Foam::morphMeshControls::writeDerivatives
         WarningInFunction
             << "The motion solver has no parameters: option -derivatives is"
             << " for ffdMotionSolver" << endl;
+    }
+}
+
+
+void Foam::morphMeshControls::writeConstraints
+(
+    const fvMesh& mesh,
+    const PtrList<motionSolver>& solvers,
+    const fileName& folder
+)
+{
+    bool some = false;
+    for (const motionSolver& solver : solvers)
+    {
+        autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
+        if (!boxes.valid())
+        {
+            continue;
+        }
+        some = true;
+        const auto& ffd = refCast<const ffdMotionSolver>(solver);
+        const dictionary& given =
+            dictionaryChecks::subDict(ffd.coeffDict(), "constraints");
+
+        shapeConstraints constraints
+        (
+            given,
+            ffd.points0(),
+            facesOf
+            (
+                mesh,
+                selectedPatches
+                (
+                    mesh,
+                    shapeConstraints::patches(given),
+                    "Entry 'patches' of 'constraints'"
+                )
+            )
+        );
+        constraints.evaluate
+        (
+            ffd.points0() + boxes->displacement(),
+            boxes->parameterNames(),
+            [&](const label i) { return boxes->derivative(i); }
+        );
+        mkDir(folder);
+        constraints.write(folder + '/');
+    }
+    if (!some)
+    {
+        WarningInFunction
+            << "The motion solver has no parameters: option -constraints is"
+            << " for ffdMotionSolver" << endl;
+    }
+}
+
+
+void Foam::morphMeshControls::writeSensitivities
+(
+    const fvMesh& mesh,
+    PtrList<motionSolver>& solvers
+)
+{
+    bool some = false;
+    for (motionSolver& solver : solvers)
+    {
+        auto* parameters = dynamic_cast<motionSensitivities*>(&solver);
+        if (!parameters)
+        {
+            continue;
+        }
+        some = true;
+        const wordList names(parameters->parameterNames());
+        forAll(names, i)
+        {
+            pointVectorField field
+            (
+                IOobject
+                (
+                    "d_" + names[i],
+                    mesh.time().timeName(),
+                    mesh,
+                    IOobject::NO_READ,
+                    IOobject::NO_WRITE,
+                    false
+                ),
+                pointMesh::New(mesh),
+                dimensionedVector(dimLength, Zero)
+            );
+            field.primitiveFieldRef() = parameters->sensitivity(i);
+            field.write();
+        }
+        Info<< "Wrote dx/dmu as fields d_<parameter> of "
+            << plainText::counted(names.size(), "parameter").c_str()
+            << " to time " << mesh.time().timeName() << endl;
+    }
+    if (!some)
+    {
+        WarningInFunction
+            << "The motion solver has no parameters: option -sensitivityFields"
+            << " is for ffdMotionSolver" << endl;
     }
 }
 

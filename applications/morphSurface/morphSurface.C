@@ -17,7 +17,9 @@ Usage
     \b morphSurface [OPTIONS] input output
 
     Formats are told by the extensions: all that OpenFOAM's triSurface reads
-    and writes (stl, obj, vtk, off, tri, ..., also with .gz).
+    and writes (stl, obj, vtk, off, tri, ..., also with .gz). Numbers are
+    written with 17 digits, which are read back as they were, where the format
+    has text; binary stl has single precision.
 
     Options:
       - \par -dict \<file\>
@@ -32,6 +34,12 @@ Usage
         Also write derivatives of area, volume and centroid by each parameter,
         to \<output without extension\>.derivatives.dat
 
+      - \par -constraints
+        Evaluate the dictionary \c constraints beside \c boxes
+        (shapeConstraint.H) on the surface: values, bounds and by how much they
+        are missed, and exact derivatives by each parameter, to \<output without
+        extension\>.constraints.dat and .constraintDerivatives.dat
+
       - \par -lattice
         Also write the lattices, and the surface for each parameter at its
         bounds, as VTK files to the folder \<output without extension\>.lattice
@@ -39,21 +47,29 @@ Usage
       - \par -version
         Print the version and stop.
 
+      - \par -preview
+        The same, and one picture of it all: preview.png in that folder.
+
     The output is not written if a box folds, has none of the surface's points
-    or any entry is wrong; the exit status is then 1.
+    or any entry is wrong; the exit status is then 1. It is written beside the
+    output, read back and only then takes its name: a full disk leaves a former
+    file as it was.
 
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
-#include "dictionaryChecks.H"
+#include "dictionaryEntries.H"
+#include "ffdFit.H"
 #include "ffdMeasures.H"
 #include "ffdPreview.H"
 #include "IFstream.H"
 #include "morphVersion.H"
 #include "OFstream.H"
 #include "OSspecific.H"
+#include "shapeConstraints.H"
 #include "triSurface.H"
 
+#include <cmath>
 #include <limits>
 
 using namespace Foam;
@@ -88,6 +104,119 @@ static dictionary readBoxes(const fileName& file)
 }
 
 
+//- A surface that has triangles, with finite points
+static triSurface readSurface(const fileName& file)
+{
+    triSurface surface(file);
+    if (surface.empty())
+    {
+        FatalErrorInFunction
+            << "The surface " << file << " is empty: it has no triangle" << nl
+            << "    Give one that has" << nl << exit(FatalError);
+    }
+    for (const labelledTri& t : surface)
+    {
+        for (const label pointi : t)
+        {
+            const bool good =
+                pointi >= 0 && pointi < surface.points().size()
+             && cmptMax(cmptMag(surface.points()[pointi])) < 1e60;
+            if (!good)
+            {
+                FatalErrorInFunction
+                    << "The surface " << file << " has the triangle " << t
+                    << ", whose points are not there or beyond all measure"
+                    << nl << "    It has " << surface.points().size()
+                    << " points. Repair it" << nl << exit(FatalError);
+            }
+        }
+    }
+    return surface;
+}
+
+
+//- Write so that the file is whole or the former one
+static void writeSurface(const triSurface& surface, const fileName& file)
+{
+    if (file.hasPath())
+    {
+        mkDir(file.path());
+    }
+    const fileName beside
+    (
+        (file.hasPath() ? file.path()/"." : fileName(".")) + "writing."
+      + file.name()
+    );
+    const unsigned int digits = IOstream::defaultPrecision();
+    IOstream::defaultPrecision
+    (
+        std::numeric_limits<scalar>::max_digits10
+    );
+    surface.write(beside, true);
+    IOstream::defaultPrecision(digits);
+
+    // Streams are closed by now and tell nothing: what is there is
+    const bool threw = FatalError.throwExceptions();
+    const bool threwIO = FatalIOError.throwExceptions();
+    bool whole = false;
+    try
+    {
+        const triSurface back(beside);
+        whole = back.size() == surface.size();
+    }
+    catch (const Foam::error&)
+    {}
+    FatalError.throwExceptions(threw);
+    FatalIOError.throwExceptions(threwIO);
+    if (!whole || !mv(beside, file))
+    {
+        rm(beside);
+        FatalErrorInFunction
+            << "The surface could not be written to " << file << nl
+            << "    Is the disk full, or may you not write there?" << nl
+            << exit(FatalError);
+    }
+    Info<< nl << "Wrote " << file.c_str() << endl;
+}
+
+
+static wordList regionNames(const triSurface& surface)
+{
+    wordList names(surface.patches().size());
+    forAll(names, i)
+    {
+        names[i] = surface.patches()[i].name();
+    }
+    return names;
+}
+
+
+//- Boxes around regions of the surface get their place
+static dictionary fitted(const dictionary& dict, const triSurface& surface)
+{
+    return ffdFit::fitted
+    (
+        dict,
+        regionNames(surface),
+        [&](const label region)
+        {
+            DynamicList<point> points;
+            for (const labelledTri& t : surface)
+            {
+                if (t.region() == region)
+                {
+                    for (const label pointi : t)
+                    {
+                        points.append(surface.points()[pointi]);
+                    }
+                }
+            }
+            return pointField(std::move(points));
+        }
+    );
+}
+
+
 static edgeList edgesOf(const triSurface& surface)
 {
     edgeList edges(surface.nEdges());
@@ -111,6 +240,29 @@ static faceList facesOf(const triSurface& surface)
         faces[i] = surface[i].triFaceFace();
     }
     return faces;
+}
+
+
+//- Those of the regions that an entry 'patches' selects, all without it
+static faceList facesOf(const triSurface& surface, const dictionary& dict)
+{
+    if (!dict.found("patches"))
+    {
+        return facesOf(surface);
+    }
+    const labelList regions
+    (
+        dictionaryChecks::select(dict, "patches", regionNames(surface))
+    );
+    DynamicList<face> faces;
+    for (const labelledTri& t : surface)
+    {
+        if (regions.found(t.region()))
+        {
+            faces.append(t.triFaceFace());
+        }
+    }
+    return faceList(std::move(faces));
 }
 
 
@@ -143,8 +295,19 @@ int main(int argc, char *argv[])
     );
     argList::addBoolOption
     (
+        "constraints",
+        "Write the values and derivatives of the dictionary 'constraints'"
+    );
+    argList::addBoolOption
+    (
         "lattice",
         "Write the lattices and each parameter at its bounds as VTK files"
+    );
+
+    argList::addBoolOption
+    (
+        "preview",
+        "Like -lattice, and draw each parameter at its bounds in one picture"
     );
 
     const argList args(argc, argv);
@@ -164,7 +327,9 @@ int main(int argc, char *argv[])
             << exit(FatalError);
     }
 
-    ffdBoxes boxes
+    triSurface surface(readSurface(input));
+    const pointField points(surface.points());
+    const dictionary dict
     (
         readBoxes
         (
@@ -172,10 +337,16 @@ int main(int argc, char *argv[])
         ),
         nullptr
     );
-    triSurface surface(input);
-    const pointField points(surface.points());
+    ffdBoxes boxes(fitted(dict, surface));
     boxes.setPoints(points, edgesOf(surface));
-    boxes.update(args.getOrDefault<scalar>("time", 0));
+    const scalar time = args.getOrDefault<scalar>("time", 0);
+    if (!std::isfinite(time))
+    {
+        FatalErrorInFunction
+            << "Option -time is " << args["time"] << nl
+            << "    Give a number" << nl << exit(FatalError);
+    }
+    boxes.update(time);
     const pointField moved(points + boxes.displacement());
     const faceList faces(facesOf(surface));
     const ffdMeasures measures(boxes, points, faces);
@@ -184,13 +355,8 @@ int main(int argc, char *argv[])
         << (measures.closed() ? "closed" : "open") << nl << nl;
     measures.writeMeasures(Info);
 
-    if (output.hasPath())
-    {
-        mkDir(output.path());
-    }
     surface.movePoints(moved);
-    surface.write(output, true);
-    Info<< nl << "Wrote " << output.c_str() << endl;
+    writeSurface(surface, output);
 
     if (args.found("derivatives"))
     {
@@ -200,12 +366,30 @@ int main(int argc, char *argv[])
         measures.writeDerivatives(Info);
         Info<< "Wrote " << os.name().c_str() << endl;
     }
-    if (args.found("lattice"))
+    if (args.found("constraints"))
     {
-        ffdPreview::write
+        const dictionary& given =
+            dictionaryChecks::subDict(dict, "constraints");
+        shapeConstraints constraints
         (
-            boxes, points, faces, output.lessExt() + ".lattice"
+            given, points, facesOf(surface, given)
         );
+        constraints.evaluate
+        (
+            moved,
+            boxes.parameterNames(),
+            [&](const label i) { return boxes.derivative(i); }
+        );
+        constraints.write(output.lessExt() + '.');
+    }
+    if (args.found("lattice") || args.found("preview"))
+    {
+        const fileName folder(output.lessExt() + ".lattice");
+        ffdPreview::write(boxes, points, faces, folder);
+        if (args.found("preview"))
+        {
+            ffdPreview::draw(folder);
+        }
     }
 
     Info<< nl << "End" << nl << endl;

@@ -160,6 +160,49 @@ def rudder(chord=0.5, span=3.02, volume=0.0298, n=60, layers=30):
     return triangles(np.array(rings)[:, ::-1])
 
 
+def wing(chord=1.0, tip=0.6, span=3.0, n=40, layers=24):
+    """Half a wing of NACA 63-012 sections, its axis, the quarter chords, along
+    z from the root on."""
+    x = (1 - np.cos(np.pi * np.arange(n + 1) / n)) / 2
+    upper = np.stack([x, half_thickness(x)], 1)
+    section = np.concatenate([upper, (upper * [1, -1])[-2:0:-1]])
+    rings = []
+    for z in np.linspace(0, 1, layers + 1):
+        points = (section - [0.25, 0]) * (chord + (tip - chord) * z)
+        rings.append(np.column_stack([points, np.full(len(points), span * z)]))
+    return triangles(np.array(rings)[:, ::-1])
+
+
+def nozzle(n=72, m=40):
+    """The wall of a nozzle about x, 0.1 m thick: radius 0.5 m, in its throat
+    0.35 m."""
+    x = np.linspace(0, 2, m + 1)
+    radius = 0.5 - 0.15 * np.sin(np.pi * x / 2) ** 2
+    outline = np.concatenate(
+        [
+            np.stack([x, radius], 1),
+            np.stack([x, radius + 0.1], 1)[::-1],
+        ]
+    )
+    angle = 2 * np.pi * np.arange(n) / n
+    rings = np.stack(
+        [
+            np.stack(
+                [np.full(n, a), r * np.cos(angle), r * np.sin(angle)], 1
+            )
+            for a, r in outline
+        ]
+    )
+    faces = []
+    for i in range(len(rings)):
+        ring, following = rings[i], rings[(i + 1) % len(rings)]
+        for j in range(n):
+            a, b = ring[j], ring[(j + 1) % n]
+            c, d = following[(j + 1) % n], following[j]
+            faces += [[a, c, b], [a, d, c]]
+    return np.array(faces)
+
+
 def volume(faces):
     """Enclosed by triangles whose normals point outwards."""
     return (
@@ -190,7 +233,13 @@ def write(faces, path, name):
         print("endsolid", name, file=file)
 
 
-BODIES = {"ellipsoid": ellipsoid, "bulb": bulb, "rudder": rudder}
+BODIES = {
+    "ellipsoid": ellipsoid,
+    "bulb": bulb,
+    "rudder": rudder,
+    "wing": wing,
+    "nozzle": nozzle,
+}
 
 
 def main():

@@ -4,12 +4,14 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdBox.H"
-#include "dictionaryChecks.H"
+#include "dictionaryEntries.H"
 #include "eigenFields.H"
+#include "ffdBulk.H"
 #include "foldCertificate.hpp"
 #include "ListOps.H"
 
 #include <cmath>
+#include <functional>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -20,6 +22,21 @@ using morph::Vector3;
 
 // Points this near to a face, in fractions of the box, are on it
 static const scalar onFace = 1e-8;
+
+
+// d xi/d x, without looking for xi once more where that takes iterations
+static Eigen::Matrix3d gradientAt
+(
+    const morph::FfdFrame& frame,
+    const Vector3& x,
+    const Vector3& xi
+)
+{
+    return
+        frame.controlPoints()
+      ? Eigen::Matrix3d(frame.frameJacobian(xi).inverse())
+      : frame.gradient(x);
+}
 
 } // End namespace Foam
 
@@ -32,12 +49,13 @@ Foam::ffdBox::ffdBox
     const objectRegistry* registry
 )
 :
-    dict_(dict),
-    name_(dict.dictName()),
-    settings_(ffdBoxSettings::read(dict))
+    ffdDeformation(dict),
+    settings_(ffdBoxSettings::read(dict)),
+    frozenFaces_(false)
 {
-    readParameters(registry);
     control_.setZero(settings_.lattice->size(), 3);
+    readParameters(registry);
+    readAxis(registry);
 }
 
 
@@ -45,26 +63,105 @@ Foam::ffdBox::ffdBox
 
 void Foam::ffdBox::readParameters(const objectRegistry* registry)
 {
-    for (const entry& e : dict_.subDict("parameters"))
+    if (dict_.found("parameters"))
     {
-        if (!e.isDict())
+        const dictionary& given =
+            dictionaryChecks::subDict(dict_, "parameters");
+        for (const entry& e : given)
         {
-            FatalIOErrorInFunction(dict_.subDict("parameters"))
-                << "Entry '" << e.keyword() << "' has to be a dictionary: "
-                << e.keyword() << " { value 0; moves ( ((i j k) (x y z)) ); }"
-                << nl << exit(FatalIOError);
+            if (!e.isDict())
+            {
+                FatalIOErrorInFunction(given)
+                    << "Entry '" << e.keyword() << "' has to be a dictionary: "
+                    << e.keyword() << " { value 0; moves ( ((i j k) (x y z))"
+                    << " ); }" << nl << exit(FatalIOError);
+            }
+            parameters_.append(new ffdParameter(e.dict(), registry));
         }
-        parameters_.append(new ffdParameter(e.dict(), registry));
-        moves_.append(readMoves(parameters_.last()));
+    }
+    if (dict_.found("bulk"))
+    {
+        ffdBulk::append
+        (
+            dictionaryChecks::subDict(dict_, "bulk"), settings_, parameters_,
+            registry
+        );
+    }
+    moves_.setSize(parameters_.size());
+    forAll(parameters_, i)
+    {
+        moves_[i] = readMoves(parameters_[i]);
+    }
+
+    const bool some =
+        dict_.found("parameters") || dict_.found("bulk")
+     || (!settings_.frame->radial() && dict_.found("axis"));
+    if (!some)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry 'parameters' is missing: box '" << name_
+            << "' moves nothing" << nl
+            << "    Write parameters { mu { value 0.1; moves ( ((1 1 1)"
+            << " (1 0 0)) ); } }, or 'bulk' for many at once, or 'axis'" << nl
+            << exit(FatalIOError);
     }
 }
 
 
-morph::Vectors Foam::ffdBox::readMoves(const ffdParameter& parameter) const
+void Foam::ffdBox::readAxis(const objectRegistry* registry)
 {
-    morph::Vectors moves =
-        morph::Vectors::Zero(settings_.lattice->size(), 3);
+    // That of a cylindrical box is its own
+    if (!settings_.frame->radial() && dict_.found("axis"))
+    {
+        const dictionary& given = dictionaryChecks::subDict(dict_, "axis");
+        dictionaryChecks::onlyKeys(given, ffdAxis::keys());
+        axis_.reset(new ffdAxis(given, parameters_, registry));
+    }
+    moves_.setSize(parameters_.size());
+    resting_.setSize(parameters_.size(), false);
+    if (!axis_.valid())
+    {
+        return;
+    }
 
+    rest_.resize(settings_.lattice->size(), 3);
+    labelVector p;
+    for (p.z() = 0; p.z() <= settings_.order.z(); ++p.z())
+    {
+        for (p.y() = 0; p.y() <= settings_.order.y(); ++p.y())
+        {
+            for (p.x() = 0; p.x() <= settings_.order.x(); ++p.x())
+            {
+                rest_.row
+                (
+                    settings_.lattice->number(p.x(), p.y(), p.z())
+                ) = settings_.restPosition(p).transpose();
+            }
+        }
+    }
+    scalar least = GREAT;
+    scalar most = -GREAT;
+    for (Eigen::Index i = 0; i < rest_.rows(); ++i)
+    {
+        fractions_.push_back
+        (
+            axis_->axis().fraction(rest_.row(i).transpose())
+        );
+        least = min(least, fractions_.back());
+        most = max(most, fractions_.back());
+    }
+    axis_->checkMet(least, most);
+    carried_.setSize(carriedPoints().size(), Zero);
+    arms_.setZero(rest_.rows(), 3);
+}
+
+
+Foam::ffdBox::latticeMoves Foam::ffdBox::readMoves
+(
+    const ffdParameter& parameter
+) const
+{
+    DynamicList<Tuple2<label, vector>> moves;
     for (const auto& move : parameter.moves())
     {
         const labelVector& point = move.first();
@@ -99,18 +196,105 @@ morph::Vectors Foam::ffdBox::readMoves(const ffdParameter& parameter) const
           : settings_.frame->fromFractions(settings_.rest(point), given);
         for (const label i : numbers)
         {
-            moves.row(i) += moved.transpose();
+            moves.append(Tuple2<label, vector>(i, toFoam(moved)));
         }
     }
-    return moves;
+    return latticeMoves(std::move(moves));
+}
+
+
+void Foam::ffdBox::checkResting
+(
+    const label parameteri,
+    const label face
+) const
+{
+    if (parameters_[parameteri].value() != 0)
+    {
+        FatalIOErrorInFunction(parameters_[parameteri].dict())
+            << "Parameter '" << parameters_[parameteri].name() << "' of box '"
+            << name_ << "' has the value " << parameters_[parameteri].value()
+            << " but moves a frozen layer: there is mesh beyond a face," << nl
+            << "    where 'continuity "
+            << ffdBoxSettings::continuityNames[settings_.frozenLayers]
+            << "' keeps " << settings_.frozenLayers
+            << " layer(s) of control points at rest"
+            << (face < 0 ? "" : ": ")
+            << (face < 0 ? string() : ffdExits::faceName(face)).c_str() << nl
+            << "    Leave those layers out by 'i', 'j' and 'k', or ask for"
+            << " less continuity" << nl << exit(FatalIOError);
+    }
+}
+
+
+morph::Vectors Foam::ffdBox::controlDerivative(const label parameteri) const
+{
+    morph::Vectors control = morph::Vectors::Zero(control_.rows(), 3);
+    if (resting_[parameteri])
+    {
+        return control;
+    }
+    for (const auto& move : moves_[parameteri])
+    {
+        const Vector3 v = toEigen(move.second());
+        control.row(move.first()) +=
+        (
+            axis_.valid()
+          ? Vector3
+            (
+                v
+              + axis_->section
+                (
+                    fractions_[std::size_t(move.first())]
+                ).change*v
+            )
+          : v
+        ).transpose();
+    }
+    if (axis_.valid() && axis_->has(parameteri))
+    {
+        for (Eigen::Index i = 0; i < control.rows(); ++i)
+        {
+            const auto section =
+                axis_->byParameter(fractions_[std::size_t(i)], parameteri);
+            control.row(i) =
+            (
+                section.shift + section.change*arms_.row(i).transpose()
+            ).transpose();
+        }
+    }
+    return control;
+}
+
+
+morph::Vectors Foam::ffdBox::carriedDerivative
+(
+    const vectorField& velocity
+) const
+{
+    const Eigen::Index n = rest_.rows();
+    const morph::Vectors all = asVectors(velocity);
+    const morph::Vectors base =
+        axis_->axis().along(fractions_, all.bottomRows(all.rows() - n));
+    morph::Vectors control(n, 3);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+        control.row(i) =
+        (
+            axis_->section(fractions_[std::size_t(i)]).change
+           *(all.row(i) - base.row(i)).transpose()
+        ).transpose();
+    }
+    return control;
 }
 
 
 bool Foam::ffdBox::contains(const Vector3& xi) const
 {
+    // Comparisons with what is not a number are trapped: ask for it first
     return
-        xi.minCoeff() >= -onFace && xi.maxCoeff() <= 1 + onFace
-     && !xi.hasNaN();
+        !xi.hasNaN()
+     && xi.minCoeff() >= -onFace && xi.maxCoeff() <= 1 + onFace;
 }
 
 
@@ -122,15 +306,9 @@ Foam::wordList Foam::ffdBox::offenders
 {
     // The derivative of the determinant by the value, times the value: what a
     // parameter contributes to the fold
-    const morph::FfdFrame& frame = *settings_.frame;
-    Eigen::Matrix3d J = scale*settings_.lattice->gradient(xi, control_);
-    for (int d = 0; d < 3; ++d)
-    {
-        Vector3 from = xi, to = xi;
-        from[d] = 0;
-        to[d] = 1;
-        J.col(d) += frame.frameCoordinates(to) - frame.frameCoordinates(from);
-    }
+    const Eigen::Matrix3d J =
+        settings_.frame->frameJacobian(xi)
+      + scale*settings_.lattice->gradient(xi, control_);
     Eigen::Matrix3d cofactors;
     cofactors <<
         J.col(1).cross(J.col(2)), J.col(2).cross(J.col(0)),
@@ -142,7 +320,7 @@ Foam::wordList Foam::ffdBox::offenders
     {
         contributions[i] = parameters_[i].value()*cofactors.cwiseProduct
         (
-            settings_.lattice->gradient(xi, moves_[i])
+            settings_.lattice->gradient(xi, controlDerivative(i))
         ).sum();
         worst = min(worst, contributions[i]);
     }
@@ -170,16 +348,174 @@ void Foam::ffdBox::update()
     control_.setZero();
     forAll(parameters_, i)
     {
-        if (parameters_[i].value() != 0)
+        const scalar value = parameters_[i].value();
+        if (resting_[i])
         {
-            control_ += parameters_[i].value()*moves_[i];
+            checkResting(i, -1);
+        }
+        if (value != 0)
+        {
+            for (const auto& move : moves_[i])
+            {
+                control_.row(move.first()) +=
+                    value*toEigen(move.second()).transpose();
+            }
         }
     }
+    if (!axis_.valid())
+    {
+        return;
+    }
+
+    axis_->update(parameters_);
+    const Eigen::Index n = rest_.rows();
+    const morph::Vectors carried = asVectors(carried_);
+    const morph::Vectors base = axis_->axis().along
+    (
+        fractions_,
+        axis_->axis().points() + carried.bottomRows(carried.rows() - n)
+    );
+    arms_ = rest_ + carried.topRows(n) + control_ - base;
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+        const auto section = axis_->section(fractions_[std::size_t(i)]);
+        control_.row(i) +=
+        (
+            section.shift + section.change*arms_.row(i).transpose()
+        ).transpose();
+    }
+}
+
+
+Foam::pointField Foam::ffdBox::carriedPoints() const
+{
+    if (!axis_.valid())
+    {
+        return pointField();
+    }
+    const morph::Vectors& onAxis = axis_->axis().points();
+    pointField points(label(rest_.rows() + onAxis.rows()));
+    forAll(points, i)
+    {
+        points[i] = toFoam
+        (
+            i < rest_.rows()
+          ? Vector3(rest_.row(i).transpose())
+          : Vector3(onAxis.row(i - rest_.rows()).transpose())
+        );
+    }
+    return points;
+}
+
+
+void Foam::ffdBox::carry(const vectorField& displacement)
+{
+    carried_ = displacement;
+}
+
+
+Foam::vectorField Foam::ffdBox::displacementOf(const pointField& points) const
+{
+    vectorField d(points.size(), Zero);
+    forAll(points, i)
+    {
+        const Vector3 x = toEigen(points[i]);
+        const Vector3 xi = settings_.frame->coordinates(x);
+        if (contains(xi))
+        {
+            d[i] = toFoam
+            (
+                settings_.frame->displacement
+                (
+                    x, settings_.lattice->displacement(xi, control_)
+                )
+            );
+        }
+    }
+    return d;
+}
+
+
+static Foam::vectorField derivativeAt
+(
+    const Foam::ffdBoxSettings& settings,
+    const Foam::pointField& points,
+    const morph::Vectors& control,
+    const morph::Vectors& velocity,
+    const std::function<bool(const morph::Vector3&)>& contains
+)
+{
+    using namespace Foam;
+    vectorField d(points.size(), Zero);
+    forAll(points, i)
+    {
+        const Vector3 x = toEigen(points[i]);
+        const Vector3 xi = settings.frame->coordinates(x);
+        if (contains(xi))
+        {
+            const Vector3 v = settings.lattice->displacement(xi, velocity);
+            d[i] = toFoam
+            (
+                settings.frame->displacementByLattice
+                (
+                    x, settings.lattice->displacement(xi, control)
+                )*v
+            );
+        }
+    }
+    return d;
+}
+
+
+Foam::vectorField Foam::ffdBox::derivativeOf
+(
+    const pointField& points,
+    const label parameteri
+) const
+{
+    return derivativeAt
+    (
+        settings_, points, control_, controlDerivative(parameteri),
+        [this](const Vector3& xi) { return contains(xi); }
+    );
+}
+
+
+Foam::vectorField Foam::ffdBox::derivativeOf
+(
+    const pointField& points,
+    const vectorField& velocity
+) const
+{
+    if (!axis_.valid())
+    {
+        return vectorField(points.size(), Zero);
+    }
+    return derivativeAt
+    (
+        settings_, points, control_, carriedDerivative(velocity),
+        [this](const Vector3& xi) { return contains(xi); }
+    );
+}
+
+
+Foam::vectorField Foam::ffdBox::carriedDerivative
+(
+    const pointField& points,
+    const vectorField& velocity
+) const
+{
+    if (!axis_.valid())
+    {
+        return vectorField(inside_.size(), Zero);
+    }
+    return derivative(points, carriedDerivative(velocity));
 }
 
 
 void Foam::ffdBox::checkFold() const
 {
+    checkAxisFrozen(frozenFaces_);
     morph::FoldCertificate certificate
     (
         *settings_.frame, *settings_.lattice, control_
@@ -218,7 +554,7 @@ Foam::pointField Foam::ffdBox::lattice(const bool moved) const
         {
             for (p.x() = 0; p.x() <= order.x(); ++p.x())
             {
-                const Vector3 rest = frame.position(settings_.rest(p));
+                const Vector3 rest = settings_.restPosition(p);
                 labelVector own(p);
                 own.y() = p.y() % settings_.nPoints(1);
                 const label number = settings_.numbers(own)[0];
@@ -310,11 +646,29 @@ Foam::vectorField Foam::ffdBox::derivative
     const label parameteri
 ) const
 {
+    return derivative(points, controlDerivative(parameteri));
+}
+
+
+Foam::vectorField Foam::ffdBox::derivative
+(
+    const pointField& points,
+    const morph::Vectors& control
+) const
+{
     const morph::FfdLattice& lattice = *settings_.lattice;
-    const morph::Vectors d = lattice.displacement(rows_, control_);
-    const morph::Vectors byValue =
-        lattice.displacement(rows_, moves_[parameteri]);
+    const morph::Vectors byValue = lattice.displacement(rows_, control);
     vectorField derivative(inside_.size());
+    if (!settings_.frame->radial())
+    {
+        forAll(inside_, i)
+        {
+            derivative[i] = toFoam(byValue.row(i).transpose());
+        }
+        return derivative;
+    }
+
+    const morph::Vectors d = lattice.displacement(rows_, control_);
     forAll(inside_, i)
     {
         const Eigen::Matrix3d byLattice =
@@ -345,7 +699,7 @@ Foam::vectorField Foam::ffdBox::directional
         const Vector3 xi = coordinates_.row(i).transpose();
         const Eigen::Matrix3d gradient =
             frame.displacementByLattice(x, di)
-           *lattice.gradient(xi, control_)*frame.gradient(x)
+           *lattice.gradient(xi, control_)*gradientAt(frame, x, xi)
           + frame.displacementByPosition(x, di);
         result[i] = toFoam(gradient*toEigen(v[inside_[i]]));
     }

@@ -5,7 +5,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdBoxSettings.H"
 #include "dictionaryChecks.H"
+#include "eigenFields.H"
 #include "ffdFrames.H"
+#include "ffdLatticeFile.H"
+#include "splineFrame.hpp"
 #include "Tuple2.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -23,6 +26,14 @@ Foam::ffdBoxSettings::unitTypeNames
 ({
     { unitType::box, "box" },
     { unitType::metres, "metres" }
+});
+
+
+const Foam::Enum<Foam::ffdBoxSettings::formType>
+Foam::ffdBoxSettings::formTypeNames
+({
+    { formType::displacement, "displacement" },
+    { formType::position, "position" }
 });
 
 
@@ -45,8 +56,8 @@ static void checkKeys(const dictionary& dict)
     (
         wordList
         ({
-            "type", "order", "basis", "units", "continuity", "weights",
-            "parameters"
+            "type", "order", "basis", "form", "units", "continuity", "weights",
+            "parameters", "bulk", "axis", "parent"
         })
     );
     if (dict.getOrDefault<word>("basis", "bernstein") == "bSpline")
@@ -102,6 +113,28 @@ static morph::BSpline readBasis
 }
 
 
+// More would take minutes to certify, or not fit into memory
+static void checkSize(const dictionary& dict, const labelVector& order)
+{
+    const scalar most = 3e5;
+    const label mostBernstein = 20;
+    const bool spline =
+        dict.getOrDefault<word>("basis", "bernstein") == "bSpline";
+    const scalar n =
+        (scalar(order.x()) + 1)*(scalar(order.y()) + 1)*(scalar(order.z()) + 1);
+    if (n > most || (!spline && cmptMax(order) > mostBernstein))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'order' is " << order << ", but it may be at most "
+            << mostBernstein << " with Bernstein polynomials," << nl
+            << "    and there may be at most " << most
+            << " control points" << nl
+            << "    Use 'basis bSpline' with a small degree for fine lattices"
+            << nl << exit(FatalIOError);
+    }
+}
+
+
 static labelVector readOrder(const dictionary& dict)
 {
     const labelVector order(dict.get<labelVector>("order"));
@@ -113,7 +146,72 @@ static labelVector readOrder(const dictionary& dict)
             << "    There is one control point more in each direction; 0 moves"
             << " all points along it alike" << nl << exit(FatalIOError);
     }
+    checkSize(dict, order);
     return order;
+}
+
+
+// The map of the position form: the volume that control points span
+static std::shared_ptr<const morph::FfdFrame> splineFrame
+(
+    const dictionary& dict,
+    const std::array<morph::BSpline, 3>& basis,
+    const morph::Vectors& controlPoints
+)
+{
+    if (dict.found("weights"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'weights' has no meaning where control points span the"
+            << " box themselves" << nl
+            << "    Remove it, or use a box with 'form displacement'" << nl
+            << exit(FatalIOError);
+    }
+    for (const morph::BSpline& one : basis)
+    {
+        if (one.size() < 2)
+        {
+            FatalIOErrorInFunction(dict)
+                << "With 'form position' every component of 'order' has to be"
+                << " one at least" << nl
+                << "    Control points span the box themselves" << nl
+                << exit(FatalIOError);
+        }
+    }
+    try
+    {
+        return std::make_shared<morph::SplineFrame>(basis, controlPoints);
+    }
+    catch (const std::invalid_argument& wrong)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Box '" << dict.dictName() << "': " << wrong.what() << nl
+            << exit(FatalIOError);
+    }
+    return nullptr;
+}
+
+
+static morph::Vectors restPositions
+(
+    const ffdBoxSettings& settings,
+    const morph::FfdLattice& lattice
+)
+{
+    morph::Vectors points(lattice.size(), 3);
+    labelVector p;
+    for (p.z() = 0; p.z() <= settings.order.z(); ++p.z())
+    {
+        for (p.y() = 0; p.y() <= settings.order.y(); ++p.y())
+        {
+            for (p.x() = 0; p.x() <= settings.order.x(); ++p.x())
+            {
+                points.row(lattice.number(p.x(), p.y(), p.z())) =
+                    settings.frame->position(settings.rest(p)).transpose();
+            }
+        }
+    }
+    return points;
 }
 
 
@@ -141,21 +239,62 @@ Foam::ffdBoxSettings Foam::ffdBoxSettings::read(const dictionary& dict)
 {
     checkKeys(dict);
     ffdBoxSettings settings;
-    settings.frame = ffdFrames::read(dict);
-    settings.order = readOrder(dict);
+    const bool fromFile =
+        ffdFrames::readType(dict) == ffdFrames::boxType::lattice;
+    pointField controlPoints;
+    if (fromFile)
+    {
+        const ffdLatticeFile file(dict);
+        settings.order = file.order();
+        controlPoints = file.points();
+        checkSize(dict, settings.order);
+    }
+    else
+    {
+        settings.frame = ffdFrames::read(dict);
+        settings.order = readOrder(dict);
+    }
     settings.units = dictionaryChecks::getChoice
     (
-        dict, "units", unitTypeNames, unitType::box
+        dict,
+        "units",
+        unitTypeNames,
+        fromFile ? unitType::metres : unitType::box
     );
     settings.frozenLayers = readContinuity(dict);
 
-    const bool ring = settings.frame->ring();
+    const bool ring = !fromFile && settings.frame->ring();
     const std::array<morph::BSpline, 3> basis
     {{
         readBasis(dict, settings.order, 0, false),
         readBasis(dict, settings.order, 1, ring),
         readBasis(dict, settings.order, 2, false)
     }};
+    const bool position = dictionaryChecks::getChoice
+    (
+        dict, "form", formTypeNames, formType::displacement
+    ) == formType::position;
+    if (fromFile)
+    {
+        settings.frame = splineFrame(dict, basis, asVectors(controlPoints));
+    }
+    else if (position)
+    {
+        if (settings.frame->radial())
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'form' is position, which cylindrical boxes do not"
+                << " have" << nl
+                << "    Remove it, or use a box of type corners or lattice"
+                << nl << exit(FatalIOError);
+        }
+        settings.frame = splineFrame
+        (
+            dict,
+            basis,
+            restPositions(settings, morph::FfdLattice(basis))
+        );
+    }
     settings.lattice = std::make_shared<morph::FfdLattice>(basis);
 
     if (dict.found("weights"))
@@ -197,6 +336,25 @@ morph::Vector3 Foam::ffdBoxSettings::rest(const labelVector& point) const
         xi[d] = order[d] > 0 ? scalar(point[d])/order[d] : 0.5;
     }
     return xi;
+}
+
+
+morph::Vector3 Foam::ffdBoxSettings::restPosition
+(
+    const labelVector& point
+) const
+{
+    const morph::Vectors* points = frame->controlPoints();
+    return
+        points
+      ? morph::Vector3
+        (
+            points->row
+            (
+                lattice->number(point.x(), point.y(), point.z())
+            ).transpose()
+        )
+      : frame->position(rest(point));
 }
 
 

@@ -39,6 +39,8 @@ Foam::ffdBoxes::ffdBoxes
     prepared_(false)
 {
     readBoxes();
+    findParents();
+    findStages();
 }
 
 
@@ -64,7 +66,7 @@ void Foam::ffdBoxes::readBoxes()
                 << "Entry '" << e.keyword() << "' has to be the dictionary of"
                 << " a box" << nl << exit(FatalIOError);
         }
-        boxes_.append(new ffdBox(e.dict(), registry_));
+        boxes_.append(ffdDeformation::New(e.dict(), registry_));
         forAll(boxes_.last().parameters(), i)
         {
             boxOf_.append(boxes_.size() - 1);
@@ -77,49 +79,298 @@ void Foam::ffdBoxes::readBoxes()
             << "There is no box: nothing would move" << nl
             << exit(FatalIOError);
     }
-    before_.setSize(boxes_.size());
+    movedBy_.setSize(boxes_.size());
 }
 
 
-const Foam::pointField& Foam::ffdBoxes::before(const label boxi) const
+void Foam::ffdBoxes::findParents()
 {
-    return
-        combine_ == combination::chain && boxi > 0
-      ? before_[boxi]
-      : points_;
-}
-
-
-void Foam::ffdBoxes::prepare(const label boxi, const pointField& points)
-{
-    ffdBox& box = boxes_[boxi];
-    box.setPoints(points);
-    ffdBox::faceFlags shared(box.crossed(points, edges_));
-
-    // Number of points inside, and which faces are shared, over all ranks
-    labelList found(7);
-    found[6] = box.inside().size();
-    forAll(shared, face)
+    parent_.setSize(boxes_.size(), -1);
+    wordList before;
+    forAll(boxes_, boxi)
     {
-        found[face] = shared[face];
+        const auto* box = dynamic_cast<const ffdBox*>(&boxes_[boxi]);
+        if (box && !box->parentName().empty())
+        {
+            const word name(box->parentName());
+            parent_[boxi] = before.find(name);
+            if (parent_[boxi] < 0)
+            {
+                FatalIOErrorInFunction(box->dict())
+                    << "Entry 'parent' is '" << name
+                    << "', but no lattice above has that name" << nl
+                    << "    There are: " << plainText::listed(before).c_str() << nl
+                    << "    List parents before the boxes that go with them"
+                    << nl << exit(FatalIOError);
+            }
+        }
+        before.append(box ? boxes_[boxi].name() : word::null);
     }
-    foamCompat::allCombineList(found, plusEqOp<label>());
+}
 
-    if (eachHasSome_ && found[6] == 0)
+
+const Foam::ffdBox& Foam::ffdBoxes::lattice(const label boxi) const
+{
+    return dynamic_cast<const ffdBox&>(boxes_[boxi]);
+}
+
+
+bool Foam::ffdBoxes::isAncestor(const label boxi, const label of) const
+{
+    label above = parent_[of];
+    while (above >= 0 && above != boxi)
+    {
+        above = parent_[above];
+    }
+    return above == boxi;
+}
+
+
+Foam::vectorField Foam::ffdBoxes::motion
+(
+    const label boxi,
+    const pointField& points
+) const
+{
+    vectorField d(lattice(boxi).displacementOf(points));
+    if (parent_[boxi] >= 0)
+    {
+        d += motion(parent_[boxi], points);
+    }
+    return d;
+}
+
+
+Foam::vectorField Foam::ffdBoxes::motionDerivative
+(
+    const label boxi,
+    const pointField& points,
+    const label parameteri
+) const
+{
+    const ffdBox& box = lattice(boxi);
+    if (boxOf_[parameteri] == boxi)
+    {
+        return box.derivativeOf(points, placeOf_[parameteri]);
+    }
+    vectorField d(points.size(), Zero);
+    if (isAncestor(boxOf_[parameteri], boxi))
+    {
+        const label above = parent_[boxi];
+        d = motionDerivative(above, points, parameteri)
+          + box.derivativeOf
+            (
+                points,
+                motionDerivative(above, box.carriedPoints(), parameteri)
+            );
+    }
+    return d;
+}
+
+
+void Foam::ffdBoxes::findStages()
+{
+    stage_.setSize(boxes_.size(), 0);
+    neighbours_.setSize(boxes_.size());
+    nStages_ = 0;
+    forAll(boxes_, boxi)
+    {
+        label together = -1;
+        for (label other = 0; other < boxi; ++other)
+        {
+            if
+            (
+                !isAncestor(other, boxi)
+             && boxes_[boxi].touches(boxes_[other])
+            )
+            {
+                neighbours_[boxi].append(other);
+                together = max(together, stage_[other]);
+            }
+        }
+        if (combine_ == combination::chain)
+        {
+            const label with =
+                parent_[boxi] < 0 ? together : stage_[parent_[boxi]];
+            stage_[boxi] = with < 0 ? nStages_ : with;
+        }
+        nStages_ = max(nStages_, stage_[boxi] + 1);
+    }
+
+    // Only those that act on the same points can share some
+    forAll(boxes_, boxi)
+    {
+        DynamicList<label> same;
+        for (const label other : neighbours_[boxi])
+        {
+            if (stage_[other] == stage_[boxi])
+            {
+                same.append(other);
+            }
+        }
+        neighbours_[boxi] = same;
+    }
+    before_.setSize(nStages_);
+}
+
+
+const Foam::pointField& Foam::ffdBoxes::before(const label stage) const
+{
+    return stage == 0 ? points_ : before_[stage];
+}
+
+
+void Foam::ffdBoxes::checkInside(const label boxi) const
+{
+    const ffdDeformation& box = boxes_[boxi];
+    const label n = returnReduce(box.inside().size(), sumOp<label>());
+    if (eachHasSome_ && n == 0)
     {
         const boundBox ofBox(box.lattice(false), false);
-        const boundBox ofPoints(points, true);
+        const boundBox ofPoints(before(stage_[boxi]), true);
         FatalIOErrorInFunction(box.dict())
             << "Box '" << box.name() << "' contains no point of the mesh" << nl
             << "    It reaches from " << ofBox.min() << " to " << ofBox.max()
             << ", the mesh from " << ofPoints.min() << " to "
             << ofPoints.max() << nl << exit(FatalIOError);
     }
-    forAll(shared, face)
+}
+
+
+void Foam::ffdBoxes::findShared(const label boxi)
+{
+    const labelList& inside = boxes_[boxi].inside();
+    movedBy_[boxi].setSize(inside.size());
+    movedBy_[boxi] = labelPair(-1, -1);
+    for (const label other : neighbours_[boxi])
     {
-        shared[face] = found[face] > 0;
+        Map<label> place(2*inside.size());
+        forAll(boxes_[other].inside(), i)
+        {
+            place.insert(boxes_[other].inside()[i], i);
+        }
+        forAll(inside, i)
+        {
+            const auto found = place.cfind(inside[i]);
+            if (found.found() && movedBy_[boxi][i].first() < 0)
+            {
+                // One that the other shares in turn has its mover there
+                const labelPair& its = movedBy_[other][found.val()];
+                movedBy_[boxi][i] =
+                    its.first() < 0 ? labelPair(other, found.val()) : its;
+            }
+        }
     }
-    box.checkFrozen(shared);
+}
+
+
+Foam::boolList Foam::ffdBoxes::carried(const label boxi) const
+{
+    boolList byNeighbours(points_.size(), false);
+    forAll(boxes_, other)
+    {
+        const bool touching =
+            neighbours_[boxi].found(other) || neighbours_[other].found(boxi);
+        if (touching)
+        {
+            UIndirectList<bool>(byNeighbours, boxes_[other].inside()) = true;
+        }
+    }
+    return byNeighbours;
+}
+
+
+void Foam::ffdBoxes::prepare(const label stage)
+{
+    const pointField& points = before(stage);
+    forAll(boxes_, boxi)
+    {
+        if (stage_[boxi] == stage)
+        {
+            boxes_[boxi].setPoints(points);
+            checkInside(boxi);
+            findShared(boxi);
+        }
+    }
+
+    forAll(boxes_, boxi)
+    {
+        if (stage_[boxi] != stage)
+        {
+            continue;
+        }
+        labelList found
+        (
+            boxes_[boxi].exits(points, edges_, carried(boxi)).counts()
+        );
+        foamCompat::allCombineList(found, plusEqOp<label>());
+        boxes_[boxi].checkFrozen(ffdExits(found).toFreeze());
+    }
+}
+
+
+void Foam::ffdBoxes::add
+(
+    const label boxi,
+    const vectorField& d,
+    vectorField& total
+) const
+{
+    const labelList& inside = boxes_[boxi].inside();
+    forAll(inside, i)
+    {
+        if (movedBy_[boxi][i].first() < 0)
+        {
+            total[inside[i]] += d[i];
+        }
+    }
+}
+
+
+void Foam::ffdBoxes::checkShared
+(
+    const label stage,
+    const List<vectorField>& displacements
+) const
+{
+    string message;
+    bool some = false;
+    forAll(boxes_, boxi)
+    {
+        some = some || (stage_[boxi] == stage && !neighbours_[boxi].empty());
+        if (stage_[boxi] != stage || !message.empty())
+        {
+            continue;
+        }
+        const vectorField& d = displacements[boxi];
+        forAll(d, i)
+        {
+            const labelPair& mover = movedBy_[boxi][i];
+            if (mover.first() < 0)
+            {
+                continue;
+            }
+            const vector& its = displacements[mover.first()][mover.second()];
+            if (mag(d[i] - its) > 1e-6*max(mag(d[i]), mag(its)) + VSMALL)
+            {
+                OStringStream text;
+                text<< "Boxes '" << boxes_[mover.first()].name() << "' and '"
+                    << boxes_[boxi].name() << "' share the point "
+                    << before(stage)[boxes_[boxi].inside()[i]]
+                    << " but move it differently: by " << its << " and by "
+                    << d[i] << nl
+                    << "    The mesh would tear there. Let parameters of both"
+                    << " boxes move the control points" << nl
+                    << "    of the common face alike, or none of them";
+                message = text.str();
+                break;
+            }
+        }
+    }
+    if (some)
+    {
+        dictionaryChecks::stopIf(dict_.subDict("boxes"), message);
+    }
 }
 
 
@@ -185,8 +436,15 @@ bool Foam::ffdBoxes::update(const scalarField& values)
     }
     forAll(boxes_, boxi)
     {
+        const label above = parent_[boxi];
+        changed[boxi] = changed[boxi] || (above >= 0 && changed[above]);
         if (changed[boxi])
         {
+            if (above >= 0)
+            {
+                ffdBox& box = dynamic_cast<ffdBox&>(boxes_[boxi]);
+                box.carry(motion(above, box.carriedPoints()));
+            }
             boxes_[boxi].update();
             boxes_[boxi].checkFold();
         }
@@ -212,32 +470,34 @@ void Foam::ffdBoxes::setPoints
 Foam::tmp<Foam::vectorField> Foam::ffdBoxes::displacement()
 {
     auto total = tmp<vectorField>::New(points_.size(), Zero);
-    forAll(boxes_, boxi)
+    List<vectorField> displacements(boxes_.size());
+    for (label stage = 0; stage < nStages_; ++stage)
     {
-        ffdBox& box = boxes_[boxi];
-        if (combine_ == combination::chain && boxi > 0)
+        bool changed = !prepared_;
+        if (stage > 0)
         {
             pointField now(points_ + total());
-            const bool changed = !prepared_ || now != before_[boxi];
-            before_[boxi].transfer(now);
-            if (returnReduce(changed, orOp<bool>()))
-            {
-                prepare(boxi, before_[boxi]);
-            }
+            changed = changed || now != before_[stage];
+            before_[stage].transfer(now);
         }
-        else if (!prepared_)
+        if (returnReduce(changed, orOp<bool>()))
         {
-            prepare(boxi, points_);
+            prepare(stage);
         }
 
-        const vectorField d(box.displacement(before(boxi)));
-        forAll(d, i)
+        forAll(boxes_, boxi)
         {
-            total.ref()[box.inside()[i]] += d[i];
+            if (stage_[boxi] == stage)
+            {
+                displacements[boxi] =
+                    boxes_[boxi].displacement(before(stage));
+                add(boxi, displacements[boxi], total.ref());
+            }
         }
+        checkShared(stage, displacements);
     }
     prepared_ = true;
-    if (combine_ == combination::sum || boxes_.size() == 1)
+    if (nStages_ == 1)
     {
         // Only what acts on moved points asks for them again
         edges_.clear();
@@ -252,41 +512,72 @@ Foam::tmp<Foam::vectorField> Foam::ffdBoxes::derivative
 ) const
 {
     auto total = tmp<vectorField>::New(points_.size(), Zero);
-    forAll(boxes_, boxi)
+    const label from = boxOf_[parameteri];
+    for (label stage = stage_[from]; stage < nStages_; ++stage)
     {
-        const ffdBox& box = boxes_[boxi];
-        vectorField d(box.inside().size(), Zero);
-        if (boxOf_[parameteri] == boxi)
+        const vectorField velocity(total());
+        forAll(boxes_, boxi)
         {
-            d = box.derivative(before(boxi), placeOf_[parameteri]);
-        }
-        else if (combine_ == combination::chain && boxOf_[parameteri] < boxi)
-        {
-            d = box.directional(before(boxi), total());
-        }
-        forAll(d, i)
-        {
-            total.ref()[box.inside()[i]] += d[i];
+            if (stage_[boxi] != stage)
+            {
+                continue;
+            }
+            const ffdDeformation& box = boxes_[boxi];
+            if (boxi == from)
+            {
+                add
+                (
+                    boxi,
+                    box.derivative(before(stage), placeOf_[parameteri]),
+                    total.ref()
+                );
+            }
+            else if (isAncestor(from, boxi))
+            {
+                const ffdBox& child = lattice(boxi);
+                add
+                (
+                    boxi,
+                    child.carriedDerivative
+                    (
+                        before(stage),
+                        motionDerivative
+                        (
+                            parent_[boxi], child.carriedPoints(), parameteri
+                        )
+                    ),
+                    total.ref()
+                );
+            }
+            else if (stage > stage_[from])
+            {
+                add
+                (
+                    boxi,
+                    box.directional(before(stage), velocity),
+                    total.ref()
+                );
+            }
         }
     }
     return total;
 }
 
 
-Foam::List<Foam::ffdBox::faceFlags> Foam::ffdBoxes::cut
-(
-    const edgeList& edges
-) const
+Foam::List<Foam::ffdExits> Foam::ffdBoxes::cut(const edgeList& edges) const
 {
-    List<ffdBox::faceFlags> faces(boxes_.size());
+    List<ffdExits> exits(boxes_.size());
     forAll(boxes_, boxi)
     {
-        faces[boxi] =
-            boxes_[boxi].settings().frozenLayers == 0
-          ? boxes_[boxi].crossed(before(boxi), edges)
-          : ffdBox::faceFlags(false);
+        if (boxes_[boxi].frozenLayers() == 0)
+        {
+            exits[boxi] = boxes_[boxi].exits
+            (
+                before(stage_[boxi]), edges, carried(boxi)
+            );
+        }
     }
-    return faces;
+    return exits;
 }
 
 

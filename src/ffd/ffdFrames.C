@@ -5,7 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdFrames.H"
 #include "coordinateRotation.H"
-#include "dictionaryChecks.H"
+#include "dictionaryEntries.H"
 #include "eigenFields.H"
 #include "unitConversion.H"
 
@@ -15,7 +15,8 @@ const Foam::Enum<Foam::ffdFrames::boxType> Foam::ffdFrames::boxTypeNames
 ({
     { boxType::box, "box" },
     { boxType::cylindrical, "cylindrical" },
-    { boxType::corners, "corners" }
+    { boxType::corners, "corners" },
+    { boxType::lattice, "lattice" }
 });
 
 
@@ -28,7 +29,7 @@ using morph::Vector3;
 
 static vector readSpan(const dictionary& dict)
 {
-    const vector span(dict.get<vector>("span"));
+    const vector span(dictionaryChecks::getVector(dict, "span"));
     for (direction d = 0; d < vector::nComponents; ++d)
     {
         if (!(span[d] > 0))
@@ -60,7 +61,10 @@ static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
     {
         const tensor R
         (
-            coordinateRotation::New(dict.subDict("rotation"))->R()
+            coordinateRotation::New
+            (
+                dictionaryChecks::subDict(dict, "rotation")
+            )->R()
         );
         axes = columns
         (
@@ -71,14 +75,14 @@ static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
     }
     return std::make_shared<morph::AffineFrame>
     (
-        toEigen(dict.get<vector>("origin")), toEigen(readSpan(dict)), axes
+        toEigen(dictionaryChecks::getVector(dict, "origin")), toEigen(readSpan(dict)), axes
     );
 }
 
 
 static vector unitVector(const dictionary& dict, const word& key)
 {
-    const vector v(dict.get<vector>(key));
+    const vector v(dictionaryChecks::getVector(dict, key));
     if (!(mag(v) > VSMALL))
     {
         FatalIOErrorInFunction(dict)
@@ -121,7 +125,7 @@ static std::shared_ptr<const morph::FfdFrame> readCylindrical
     }
     radial /= mag(radial);
 
-    vector start(dict.get<vector>("start"));
+    vector start(dictionaryChecks::getVector(dict, "start"));
     vector span(readSpan(dict));
     if (start.x() < 0)
     {
@@ -139,7 +143,7 @@ static std::shared_ptr<const morph::FfdFrame> readCylindrical
     span.y() = degToRad(span.y());
     return std::make_shared<morph::CylindricalFrame>
     (
-        toEigen(dict.get<vector>("origin")),
+        toEigen(dictionaryChecks::getVector(dict, "origin")),
         columns(radial, axis ^ radial, axis),
         toEigen(start),
         toEigen(span)
@@ -181,18 +185,19 @@ static std::shared_ptr<const morph::FfdFrame> readCorners
 }
 
 
-static ffdFrames::boxType readType(const dictionary& dict)
-{
-    return dictionaryChecks::getChoice
-    (
-        dict, "type", ffdFrames::boxTypeNames, ffdFrames::boxType::box
-    );
-}
-
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::ffdFrames::boxType Foam::ffdFrames::readType(const dictionary& dict)
+{
+    return dictionaryChecks::getChoice
+    (
+        dict, "type", boxTypeNames, boxType::box
+    );
+}
+
 
 Foam::wordList Foam::ffdFrames::keys(const dictionary& dict)
 {
@@ -203,6 +208,9 @@ Foam::wordList Foam::ffdFrames::keys(const dictionary& dict)
 
         case boxType::corners:
             return {"corners"};
+
+        case boxType::lattice:
+            return {"file", "block"};
 
         default:
             return {"origin", "span", "rotation"};

@@ -4,64 +4,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdMeasures.H"
-#include "eigenFields.H"
-#include "foamCompat.H"
+#include "gatheredSurface.H"
 #include "IOmanip.H"
-#include "ListListOps.H"
 #include "Pstream.H"
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-// The corners of the triangles of all ranks, on the master
-static vectorField corners(const vectorField& values, const faceList& faces)
-{
-    DynamicList<vector> mine;
-    for (const face& f : faces)
-    {
-        for (label i = 1; i < f.size() - 1; ++i)
-        {
-            mine.append(values[f[0]]);
-            mine.append(values[f[i]]);
-            mine.append(values[f[i + 1]]);
-        }
-    }
-    List<vectorField> all(Pstream::nProcs());
-    all[Pstream::myProcNo()] = mine;
-    Pstream::gatherList(all);
-    return ListListOps::combine<vectorField>(all, accessOp<vectorField>());
-}
-
-
-static morph::Triangles inOrder(const label nCorners)
-{
-    morph::Triangles triangles(nCorners/3, 3);
-    for (label i = 0; i < nCorners; ++i)
-    {
-        triangles(i/3, i%3) = i;
-    }
-    return triangles;
-}
-
-
-// By their area vectors, whose sum is zero where they enclose something
-static bool encloses(const vectorField& x)
-{
-    vector sum(Zero);
-    scalar sumMag = 0;
-    for (label i = 0; i + 2 < x.size(); i += 3)
-    {
-        const vector area = 0.5*((x[i + 1] - x[i]) ^ (x[i + 2] - x[i]));
-        sum += area;
-        sumMag += mag(area);
-    }
-    return sumMag > 0 && mag(sum) < 1e-8*sumMag;
-}
-
-} // End namespace Foam
-
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -73,34 +18,26 @@ Foam::ffdMeasures::ffdMeasures
 )
 :
     names_(boxes.parameterNames()),
-    values_(boxes.values()),
-    closed_(false)
+    values_(boxes.values())
 {
-    const pointField moved(points + boxes.displacement());
-    const vectorField before(corners(points, faces));
-    const vectorField after(corners(moved, faces));
-    const morph::Triangles triangles(inOrder(after.size()));
-    if (Pstream::master())
-    {
-        closed_ = encloses(before);
-        before_ = morph::surfaceMeasures(asVectors(before), triangles);
-        after_ = morph::surfaceMeasures(asVectors(after), triangles);
-    }
-    foamCompat::broadcast(closed_);
-
+    const gatheredSurface surface(points, faces);
+    closed_ = surface.closed();
+    const morph::Triangles& triangles = surface.triangles();
+    const morph::Vectors after
+    (
+        surface.gather(points + boxes.displacement())
+    );
+    before_ = morph::surfaceMeasures(surface.points(), triangles);
+    after_ = morph::surfaceMeasures(after, triangles);
     forAll(names_, i)
     {
-        const vectorField d(corners(boxes.derivative(i), faces));
-        if (Pstream::master())
-        {
-            derivatives_.push_back
+        derivatives_.push_back
+        (
+            morph::surfaceMeasuresDerivative
             (
-                morph::surfaceMeasuresDerivative
-                (
-                    asVectors(after), triangles, asVectors(d)
-                )
-            );
-        }
+                after, triangles, surface.gather(boxes.derivative(i)())
+            )
+        );
     }
 }
 

@@ -4,7 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdParameter.H"
-#include "dictionaryChecks.H"
+#include "dictionaryEntries.H"
 #include "foamCompat.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -18,27 +18,79 @@ Foam::ffdParameter::ffdParameter
     dict_(dict),
     name_(dict.dictName()),
     function_(foamCompat::function1<scalar>("value", dict, registry)),
-    min_(dict.getOrDefault<scalar>("min", -GREAT)),
-    max_(dict.getOrDefault<scalar>("max", GREAT)),
+    min_(dictionaryChecks::getNumber(dict, "min", -GREAT)),
+    max_(dictionaryChecks::getNumber(dict, "max", GREAT)),
     moves_(dict.lookup("moves")),
+    generated_(false),
     value_(0)
 {
     dictionaryChecks::onlyKeys
     (
         dict, {"value", "valueCoeffs", "min", "max", "moves"}
     );
-    if (max_ < min_)
-    {
-        FatalIOErrorInFunction(dict_)
-            << "Entry 'max' is " << max_ << ", which is less than 'min', "
-            << min_ << nl << exit(FatalIOError);
-    }
+    checkBounds();
     if (moves_.empty())
     {
         FatalIOErrorInFunction(dict_)
             << "Entry 'moves' is empty: the parameter does nothing" << nl
             << "    List points of the lattice and what they move by, for"
             << " example ( ((3 5 3) (0 1 0)) )" << nl << exit(FatalIOError);
+    }
+}
+
+
+Foam::ffdParameter::ffdParameter
+(
+    const dictionary& dict,
+    const wordList& keys,
+    const objectRegistry* registry
+)
+:
+    dict_(dict),
+    name_(dict.dictName()),
+    function_(foamCompat::function1<scalar>("value", dict, registry)),
+    min_(dictionaryChecks::getNumber(dict, "min", -GREAT)),
+    max_(dictionaryChecks::getNumber(dict, "max", GREAT)),
+    generated_(false),
+    value_(0)
+{
+    dictionaryChecks::onlyKeys(dict, keys);
+    checkBounds();
+}
+
+
+Foam::ffdParameter::ffdParameter
+(
+    const word& name,
+    const dictionary& dict,
+    const dictionary& valueDict,
+    const word& key,
+    const moveList& moves,
+    const objectRegistry* registry
+)
+:
+    dict_(dict),
+    name_(name),
+    function_(foamCompat::function1<scalar>(key, valueDict, registry)),
+    min_(dictionaryChecks::getNumber(dict, "min", -GREAT)),
+    max_(dictionaryChecks::getNumber(dict, "max", GREAT)),
+    moves_(moves),
+    generated_(true),
+    value_(0)
+{
+    checkBounds();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ffdParameter::checkBounds() const
+{
+    if (max_ < min_)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry 'max' is " << max_ << ", which is less than 'min', "
+            << min_ << nl << exit(FatalIOError);
     }
 }
 

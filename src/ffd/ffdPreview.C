@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdPreview.H"
 #include "foamVtkSurfaceWriter.H"
+#include "OSspecific.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -13,7 +14,7 @@ namespace Foam
 namespace ffdPreview
 {
 
-static controlShape lattice(const ffdBox& box, const bool moved)
+static controlShape lattice(const ffdDeformation& box, const bool moved)
 {
     controlShape shape;
     shape.name = moved ? box.name() : word(box.name() + "AtRest");
@@ -29,20 +30,15 @@ static controlShape lattice(const ffdBox& box, const bool moved)
 }
 
 
-//- The displacement with these values; false if they fold a box
-static bool displacementFor
-(
-    ffdBoxes& boxes,
-    const scalarField& values,
-    vectorField& displacement
-)
+//- Take these values; false if they fold a box
+static bool take(ffdBoxes& boxes, const scalarField& values)
 {
     const bool threw = FatalIOError.throwExceptions();
     bool folds = false;
     try
     {
         boxes.update(values);
-        displacement = boxes.displacement();
+        boxes.displacement();
     }
     catch (const IOerror&)
     {
@@ -79,6 +75,25 @@ struct compactFaces
     }
 };
 
+
+
+//- With the present values
+static void writeFaces
+(
+    ffdBoxes& boxes,
+    const pointField& points,
+    const compactFaces& shown,
+    const fileName& file
+)
+{
+    const pointField moved
+    (
+        pointField(points + boxes.displacement()), shown.labels
+    );
+    vtk::surfaceWriter writer(moved, shown.faces, file);
+    writer.writeGeometry();
+}
+
 } // End namespace ffdPreview
 } // End namespace Foam
 
@@ -88,7 +103,7 @@ struct compactFaces
 Foam::List<Foam::controlShape> Foam::ffdPreview::lattices(const ffdBoxes& boxes)
 {
     DynamicList<controlShape> shapes;
-    for (const ffdBox& box : boxes.boxes())
+    for (const ffdDeformation& box : boxes.boxes())
     {
         shapes.append(lattice(box, true));
         shapes.append(lattice(box, false));
@@ -109,6 +124,7 @@ void Foam::ffdPreview::write
 
     const compactFaces shown(faces);
     const scalarField present(boxes.values());
+    writeFaces(boxes, points, shown, folder/"surface");
     const wordList names(boxes.parameterNames());
     forAll(names, i)
     {
@@ -122,29 +138,46 @@ void Foam::ffdPreview::write
             }
             scalarField values(present);
             values[i] = bound;
-            vectorField displacement;
-            if (!displacementFor(boxes, values, displacement))
+            if (!take(boxes, values))
             {
                 Info<< "With " << names[i] << " at " << bound
                     << " the box folds: no preview of it" << nl;
                 continue;
             }
-            const pointField moved
+            writeFaces
             (
-                pointField(points + displacement), shown.labels
-            );
-            vtk::surfaceWriter writer
-            (
-                moved,
-                shown.faces,
+                boxes,
+                points,
+                shown,
                 folder/(names[i] + (low ? ".min" : ".max"))
             );
-            writer.writeGeometry();
         }
     }
     boxes.update(present);
     boxes.displacement();
     Info<< "Wrote lattices and previews to " << folder.c_str() << endl;
+}
+
+
+void Foam::ffdPreview::draw(const fileName& folder, const string& options)
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+    const string command
+    (
+        "\"$(python3With numpy matplotlib)\" -m morphfoam.pictures.preview "
+      + ('"' + folder + '"') + options
+    );
+    Info<< endl;
+    if (Foam::system(command) != 0)
+    {
+        WarningInFunction
+            << "There is no picture of the parameters" << nl
+            << "    It needs numpy and matplotlib, and parameters with 'min'"
+            << " and 'max'. Try it: " << command.c_str() << endl;
+    }
 }
 
 

@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdMotionSolver.H"
+#include "ffdFit.H"
 #include "ffdPreview.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
@@ -54,7 +55,10 @@ Foam::ffdMotionSolver::ffdMotionSolver
         pointIOField(points0IO(mesh)),
         typeName
     ),
-    boxes_(checkedCoeffDict(), &mesh),
+    boxes_
+    (
+        ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
+    ),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
@@ -71,7 +75,10 @@ Foam::ffdMotionSolver::ffdMotionSolver
 )
 :
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
-    boxes_(checkedCoeffDict(), &mesh),
+    boxes_
+    (
+        ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
+    ),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
 {
     foamCompat::registerObject(pointDisplacement_);
@@ -88,7 +95,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
     if (found(typeName + "Coeffs"))
     {
         wordList keys(ffdBoxes::keys());
-        keys.append("onInvalidMesh");
+        keys.append(wordList({"onInvalidMesh", "constraints"}));
         keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(coeffDict(), keys);
     }
@@ -127,7 +134,8 @@ void Foam::ffdMotionSolver::warnOfCutPatches() const
     const label nPatches = patches.nNonProcessor();
     const label nBoxes = boxes_.boxes().size();
 
-    labelList isCut(nPatches*nBoxes*6, 0);
+    const label nWays = ffdExits::nWays;
+    labelList ways(nPatches*nBoxes*nWays, 0);
     for (label patchi = 0; patchi < nPatches; ++patchi)
     {
         const polyPatch& patch = patches[patchi];
@@ -140,32 +148,46 @@ void Foam::ffdMotionSolver::warnOfCutPatches() const
                 patch.meshPoints()[patch.edges()[i].end()]
             );
         }
-        const List<ffdBox::faceFlags> faces(boxes_.cut(edges));
-        forAll(faces, boxi)
+        const List<ffdExits> exits(boxes_.cut(edges));
+        forAll(exits, boxi)
         {
-            forAll(faces[boxi], face)
-            {
-                isCut[face + 6*(boxi + nBoxes*patchi)] = faces[boxi][face];
-            }
+            SubList<label>
+            (
+                ways, nWays, nWays*(boxi + nBoxes*patchi)
+            ) = exits[boxi].counts();
         }
     }
-    foamCompat::allCombineList(isCut, maxEqOp<label>());
+    foamCompat::allCombineList(ways, plusEqOp<label>());
 
     forAll(boxes_.boxes(), boxi)
     {
-        for (label face = 0; face < 6; ++face)
+        FixedList<wordList, 6> cut;
+        for (label patchi = 0; patchi < nPatches; ++patchi)
         {
-            wordList cut;
-            for (label patchi = 0; patchi < nPatches; ++patchi)
+            const ffdExits exits
+            (
+                labelList
+                (
+                    SubList<label>
+                    (
+                        ways, nWays, nWays*(boxi + nBoxes*patchi)
+                    )
+                )
+            );
+            const ffdExits::faceFlags faces(exits.toFreeze());
+            forAll(faces, face)
             {
-                if (isCut[face + 6*(boxi + nBoxes*patchi)])
+                if (faces[face])
                 {
-                    cut.append(patches[patchi].name());
+                    cut[face].append(patches[patchi].name());
                 }
             }
-            if (!cut.empty())
+        }
+        forAll(cut, face)
+        {
+            if (!cut[face].empty())
             {
-                warnOfCut(boxes_.boxes()[boxi], face, cut);
+                warnOfCut(boxes_.boxes()[boxi], face, cut[face]);
             }
         }
     }
@@ -174,14 +196,14 @@ void Foam::ffdMotionSolver::warnOfCutPatches() const
 
 void Foam::ffdMotionSolver::warnOfCut
 (
-    const ffdBox& box,
+    const ffdDeformation& box,
     const label face,
     const wordList& patches
 ) const
 {
     const wordList moving(box.moving(face));
     WarningInFunction
-        << "The face " << ffdBox::faceName(face).c_str() << " of box '"
+        << "The face " << ffdExits::faceName(face).c_str() << " of box '"
         << box.name() << "' cuts through patches "
         << plainText::listed(patches).c_str()
         << " and is not frozen: continuity is none." << nl
@@ -222,9 +244,12 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
 }
 
 
-Foam::vectorField Foam::ffdMotionSolver::displacement()
+Foam::vectorField Foam::ffdMotionSolver::inMesh
+(
+    const vectorField& moved
+) const
 {
-    vectorField inPlane(boxes_.displacement());
+    vectorField inPlane(moved);
     const planarReduction& plane = reduced_->plane();
     forAll(inPlane, pointi)
     {
@@ -233,7 +258,13 @@ Foam::vectorField Foam::ffdMotionSolver::displacement()
             plane.position(points0()[pointi]), inPlane[pointi]
         );
     }
-    vectorField displacement(reduced_->expand(inPlane));
+    return vectorField(reduced_->expand(inPlane));
+}
+
+
+Foam::vectorField Foam::ffdMotionSolver::displacement()
+{
+    vectorField displacement(inMesh(boxes_.displacement()));
     constrain(displacement);
     zone_->restrict(displacement);
     return displacement;
@@ -287,6 +318,26 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
     reduced_.clear();
     symmetry_.clear();
     zone_.reset(new motionZone(*this, coeffDict(), mesh()));
+}
+
+
+Foam::wordList Foam::ffdMotionSolver::parameterNames() const
+{
+    return boxes_.parameterNames();
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::ffdMotionSolver::sensitivity
+(
+    const label parameteri
+)
+{
+    // Linear, like the motion itself: what constraints take from it is told
+    // where the mesh moves
+    auto d = tmp<vectorField>::New(inMesh(boxes_.derivative(parameteri)));
+    symmetry_->impose(d.ref());
+    reduced_->match(d.ref());
+    return d;
 }
 
 

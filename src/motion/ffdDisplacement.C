@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdDisplacement.H"
+#include "ffdFit.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
 
@@ -32,7 +33,7 @@ Foam::ffdDisplacement::ffdDisplacement
 :
     prescribedDisplacement(dict, mesh),
     nListed_(nListed),
-    boxes_(dict, &mesh)
+    boxes_(ffdFit::fitted(dict, mesh), &mesh)
 {
     wordList keys(ffdBoxes::keys());
     keys.append("type");

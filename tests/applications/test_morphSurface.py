@@ -112,7 +112,8 @@ def test_lattice_and_bounds_are_shown(tmp_path):
                       "cube.obj", "out.obj")
     shown = {path.name for path in (tmp_path/"out.lattice").iterdir()}
     # 40 folds: told, and left out
-    assert shown == {"cube.vtk", "cubeAtRest.vtk", "cube.mu.min.vtp"}
+    assert shown == {"cube.vtk", "cubeAtRest.vtk", "cube.mu.min.vtp",
+                     "surface.vtp"}
     assert "With cube.mu at 40 the box folds" in output
 
 
@@ -131,6 +132,11 @@ def test_default_dictionary_is_that_of_the_case(tmp_path):
     (dict(dictionary="none"), "There is no dictionary"),
     (dict(text="colour blue;"), "There are no boxes"),
     (dict(value=30), "Largest safe scale"),
+    (dict(arguments=["-time", "nan", "cube.obj", "out.obj"]), "-time"),
+    (dict(arguments=["empty.obj", "out.obj"]), "empty.obj"),
+    (dict(arguments=["zero.obj", "out.obj"]), "zero.obj"),
+    (dict(arguments=["huge.obj", "out.obj"]), "huge.obj"),
+    (dict(boxes=ffd_box(300*"b", parameter("mu", MOVES))), "300 characters"),
     (dict(boxes=ffd_box("far", parameter("mu", MOVES), origin=(5, 5, 5))),
      "far")])
 def test_wrong_input_is_an_error_and_writes_nothing(tmp_path, change, message):
@@ -138,9 +144,44 @@ def test_wrong_input_is_an_error_and_writes_nothing(tmp_path, change, message):
                         boxes=change.get("boxes"))
     if "text" in change:
         case.write("boxes", "dictionary", change["text"])
+    text = (tmp_path/"cube.obj").read_text()
+    (tmp_path/"empty.obj").write_text("v 0 0 0\n")
+    (tmp_path/"zero.obj").write_text(text + "f 0 2 3\n")
+    (tmp_path/"huge.obj").write_text(text.replace("v 0 0 0", "v 1e300 0 0"))
     before = case.tree()
     output = case.run(
         "morphSurface", "-dict", change.get("dictionary", "boxes"),
         *change.get("arguments", ["cube.obj", "out.obj"]), status=1)
     assert message in output
     assert case.tree() == before
+
+
+def test_positions_are_read_back_as_they_were_written(tmp_path):
+    """17 digits: the formula to round-off, where six would differ by 1e-6."""
+    case = surface_case(tmp_path)
+    case.run("morphSurface", "-dict", "boxes", "cube.obj", "moved.obj")
+    x = vertices(tmp_path/"cube.obj")
+    xi = (x + 0.1)/1.2
+    expected = x + sum(
+        0.5*1.2*np.array(vector)
+        * np.prod([bernstein(2, i, xi[:, a]) for a, i in enumerate(at)],
+                  axis=0)[:, None]
+        for at, vector in MOVES)
+    np.testing.assert_allclose(vertices(tmp_path/"moved.obj"), expected,
+                               rtol=0, atol=1e-15)
+
+
+def test_one_picture_of_every_parameter_at_its_bounds(tmp_path):
+    pytest.importorskip("matplotlib")
+    case = surface_case(tmp_path, extra="min -0.3; max 0.6;")
+    case.run("morphSurface", "-dict", "boxes", "-preview", "cube.obj",
+             "out.obj")
+    assert (tmp_path/"out.lattice/preview.png").stat().st_size > 5000
+
+
+def test_without_bounds_there_is_no_picture_and_a_warning(tmp_path):
+    pytest.importorskip("matplotlib")
+    case = surface_case(tmp_path)
+    output = case.run("morphSurface", "-dict", "boxes", "-preview", "cube.obj",
+                      "out.obj")
+    assert "no picture" in output and "'min'" in output

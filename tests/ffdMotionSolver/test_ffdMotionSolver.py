@@ -15,7 +15,7 @@ import shutil
 import numpy as np
 import pytest
 
-from boxCase import fixed, point_field, vectors, words
+from boxCase import (fixed, from_block_mesh, point_field, vectors, words)
 from foamCase import build_program
 from ffdCase import (CUBE, displaced, ffd_box, ffd_case, move, parameter,
                      points_at, reference, rotation, write_boxes)
@@ -531,3 +531,132 @@ def test_after_a_change_of_topology_the_motion_is_that_of_a_new_solver(
     assert 0 < after < before
     assert float(re.search(r"largest motion (\S+)", output)[1]) > 0.02
     assert float(re.search(r"largest difference (\S+)", output)[1]) == 0
+
+
+# Nine points on each side of the plane x = 0.5 and on it
+WHOLE = [((i, j, k), (0, 0, 1)) for i in range(2) for j in range(2)
+         for k in range(2)]
+
+
+def side_by_side(value="0.1", other="0.1", moves=WHOLE, extra=""):
+    how = dict(order=(1, 1, 1), span=(0.5, 1, 1),
+               extra="units metres; " + (extra or "continuity none;"))
+    return (ffd_box("left", parameter("m", moves, value), origin=(0, 0, 0),
+                    **how)
+            + ffd_box("right", parameter("m", WHOLE, other),
+                      origin=(0.5, 0, 0), **how))
+
+
+@pytest.mark.parametrize("combine", ["chain", "sum"])
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_points_that_neighbours_share_move_once(tmp_path, combine, ranks):
+    """Source of truth: partition of unity: all control points of both boxes
+    move by 0.1, and so does every point of the mesh."""
+    case = ffd_case(tmp_path, side_by_side(), f"combine {combine};",
+                    cells=(8, 4, 4))
+    before = reference(case)
+    if ranks > 1:
+        case.decompose((ranks, 1, 1))
+    np.testing.assert_allclose(move(case, ranks=ranks) - before,
+                               np.tile((0, 0, 0.1), (len(before), 1)),
+                               rtol=0, atol=ROUND_OFF)
+
+
+def test_mesh_in_a_neighbour_is_no_mesh_beyond_a_face(tmp_path):
+    """With C0 the common face may move; the others end with the mesh. Source
+    of truth: partition of unity."""
+    case = ffd_case(tmp_path, side_by_side(extra="continuity C0;"),
+                    cells=(8, 4, 4))
+    before = reference(case)
+    np.testing.assert_allclose(move(case)[:, 2] - before[:, 2], 0.1, rtol=0,
+                               atol=ROUND_OFF)
+
+
+def test_four_boxes_around_an_edge_move_what_they_share_once(tmp_path):
+    how = dict(order=(1, 1, 1), span=(0.5, 0.5, 1),
+               extra="units metres; continuity none;")
+    boxes = "".join(
+        ffd_box(f"b{i}{j}", parameter("m", WHOLE, "0.1"),
+                origin=(0.5*i, 0.5*j, 0), **how)
+        for i in range(2) for j in range(2))
+    case = ffd_case(tmp_path, boxes, cells=(4, 4, 2))
+    before = reference(case)
+    np.testing.assert_allclose(move(case)[:, 2] - before[:, 2], 0.1, rtol=0,
+                               atol=ROUND_OFF)
+
+
+def test_boxes_in_one_another_are_no_neighbours(tmp_path):
+    """A box inside another, with faces in common: both act. Source of truth:
+    the formula, twice."""
+    moves = [((1, 1, 1), (0, 0.4, 0))]
+    boxes = (ffd_box("outer", parameter("a", moves, "1"), origin=(0, 0, 0),
+                     span=(1, 1, 1), extra="continuity none;")
+             + ffd_box("inner", parameter("a", moves, "1"), origin=(0, 0, 0),
+                       span=(0.5, 0.5, 1), extra="continuity none;"))
+    case = ffd_case(tmp_path, boxes, "combine sum;", cells=(4, 4, 4))
+    before = reference(case)
+    expected = (before + displaced(before, moves, (2, 2, 2), [0]*3, [1]*3)
+                + displaced(before, moves, (2, 2, 2), [0]*3, [0.5, 0.5, 1]))
+    np.testing.assert_allclose(move(case), expected, rtol=0, atol=ROUND_OFF)
+
+
+def test_a_hexahedral_box_smaller_than_the_mesh_leaves_the_rest(tmp_path):
+    """Eight corners of a cube: the formula of the plain box, and points
+    outside stay to the bit."""
+    low, high = 0.1, 0.9
+    corners = vectors([(low, low, low), (high, low, low), (high, high, low),
+                       (low, high, low), (low, low, high), (high, low, high),
+                       (high, high, high), (low, high, high)])
+    moves = [((1, 1, 1), (0.05, 0, 0))]
+    case = ffd_case(
+        tmp_path, f"b {{ type corners; corners {corners}; order (2 2 2);"
+        " units metres; continuity none; parameters {"
+        + parameter("m", moves, "1") + "} }", cells=(8, 8, 8))
+    before = reference(case)
+    d = displaced(before, moves, (2, 2, 2), [low]*3, [high - low]*3)
+    d /= high - low
+    after = move(case)
+    assert 0 < (np.abs(d).max(axis=1) > 0).sum() < len(before)
+    np.testing.assert_allclose(after, before + d, rtol=0, atol=ROUND_OFF)
+    still = np.abs(d).max(axis=1) == 0
+    np.testing.assert_array_equal(after[still], before[still])
+
+
+STEP = """
+scale 1; edges ();
+vertices ( (0 1 0) (1 1 0) (3 1 0) (1 0 0) (3 0 0) (0 2 0) (1 2 0) (3 2 0)
+           (0 1 1) (1 1 1) (3 1 1) (1 0 1) (3 0 1) (0 2 1) (1 2 1) (3 2 1) );
+blocks ( hex (0 1 6 5 8 9 14 13) (4 4 {n}) simpleGrading (1 1 1)
+         hex (1 2 7 6 9 10 15 14) (8 4 {n}) simpleGrading (1 1 1)
+         hex (3 4 2 1 11 12 10 9) (8 4 {n}) simpleGrading (1 1 1) );
+boundary ( frontAndBack {{ type {sides}; faces (
+    (0 5 6 1) (1 6 7 2) (3 1 2 4) (8 9 14 13) (9 10 15 14) (11 12 10 9)); }}
+    wall {{ type wall; faces ((0 1 9 8) (1 3 11 9) (3 4 12 11)); }} );
+defaultPatch {{ name rest; type patch; }}
+"""
+
+
+@pytest.mark.parametrize("n, sides", [(1, "empty"), (3, "patch")])
+def test_a_face_that_lies_on_a_step_has_no_mesh_beyond(tmp_path, n, sides):
+    """Behind a backward facing step: the box's faces lie on the step and on
+    the floor, its upper and rear faces cut the mesh. The step's control points
+    may move along it. Source of truth: the formula; C0 at what is cut."""
+    moves = [((0, 1, k), (0, 0.3, 0)) for k in range(2)]
+    case = from_block_mesh(tmp_path, STEP.format(n=n, sides=sides))
+    write_boxes(case, ffd_box(
+        "recirculation", parameter("a", moves, "1"), order=(2, 3, 1),
+        origin=(1, 0, 0), span=(1, 1, 1)))
+    before = reference(case)
+    d = displaced(before, moves, (2, 3, 1), (1, 0, 0), (1, 1, 1))
+    assert np.abs(d[(before[:, 0] == 1) & (before[:, 1] < 1)]).max() > 0.1
+    np.testing.assert_allclose(move(case), before + d, rtol=0, atol=ROUND_OFF)
+
+
+def test_the_cut_faces_of_a_box_behind_a_step_stay_frozen(tmp_path):
+    case = from_block_mesh(tmp_path, STEP.format(n=1, sides="empty"))
+    for at, face in (((1, 3, 0), "t = 1"), ((2, 1, 0), "s = 1")):
+        write_boxes(case, ffd_box(
+            "recirculation", parameter("a", [(at, (0, 0.1, 0))], "1"),
+            order=(2, 3, 1), origin=(1, 0, 0), span=(1, 1, 1)))
+        output = case.run("moveDynamicMesh", status=1)
+        assert "frozen layer" in output and face in output

@@ -139,6 +139,30 @@ WRONG = {
     "a weight beyond the lattice": (
         ffd_box("body", ONE, extra="weights ( ((1 1 3) 2) );"), "",
         ["'weights'", "(1 1 3)"]),
+    "neighbours that tear": (
+        ffd_box("left", moving(1, 1, 1, vector=(0, 0, 1)), order=(1, 1, 1),
+                origin=(0, 0, 0), span=(0.5, 1, 1), extra="continuity none;")
+        + ffd_box("right", moving(1, 1, 1), order=(1, 1, 1),
+                  origin=(0.5, 0, 0), span=(0.5, 1, 1),
+                  extra="continuity none;"), "",
+        ["'left' and 'right'", "(0.5 ", "differently", "common face alike"]),
+    "parameters without a dictionary": (
+        "body { origin (0 0 0); span (1 1 1); order (1 1 1); parameters; }", "",
+        ["'parameters'", "no dictionary"]),
+    "rotation without a dictionary": (
+        ffd_box("body", ONE, extra="rotation;"), "",
+        ["'rotation'", "no dictionary"]),
+    "a bound that is a dictionary": (
+        ffd_box("body", moving(1, 1, 1, extra="max { a 1; }")), "",
+        ["'max'", "number"]),
+    "a span beyond all measure": (
+        ffd_box("body", ONE, span=(1e300, 1, 1)), "", ["'span'", "1e+300"]),
+    "an origin beyond all measure": (
+        ffd_box("body", ONE, origin=(1e300, 1, 1)), "",
+        ["'origin'", "1e+300"]),
+    "too many control points": (
+        ffd_box("body", ONE, order=(100000, 3, 2)), "",
+        ["'order'", "(100000 3 2)", "at most"]),
     "no origin": (RAW.format("", ONE), "", ["span"]),
 }
 
@@ -159,6 +183,7 @@ def test_a_wrong_entry_is_an_error_that_helps(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["frozen layer", "box beside the mesh",
+                                  "neighbours that tear",
                                   "fold", "value above its bound"])
 def test_all_ranks_stop_with_the_message(tmp_path, name):
     boxes, extra, words = WRONG[name]

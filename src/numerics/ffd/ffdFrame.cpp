@@ -60,22 +60,28 @@ Eigen::Matrix3d FfdFrame::displacementByPosition
 }
 
 
+Eigen::Matrix3d FfdFrame::frameJacobian(const Vector3& xi) const
+{
+    // Along each line of the box the map is linear
+    Eigen::Matrix3d J;
+    for (int c = 0; c < 3; ++c)
+    {
+        Vector3 from = xi, to = xi;
+        from[c] = 0;
+        to[c] = 1;
+        J.col(c) = frameCoordinates(to) - frameCoordinates(from);
+    }
+    return J;
+}
+
+
 Vector3 FfdFrame::fromFractions
 (
     const Vector3& xi,
     const Vector3& fractions
 ) const
 {
-    // Along each line of the box the map is linear
-    Vector3 d = Vector3::Zero();
-    for (int c = 0; c < 3; ++c)
-    {
-        Vector3 from = xi, to = xi;
-        from[c] = 0;
-        to[c] = 1;
-        d += fractions[c]*(frameCoordinates(to) - frameCoordinates(from));
-    }
-    return d;
+    return frameJacobian(xi)*fractions;
 }
 
 // * * * Rectangular
@@ -316,7 +322,7 @@ HexahedralFrame::HexahedralFrame(const std::array<Vector3, 8>& corners)
         {
             for (int k = 0; k <= n; ++k)
             {
-                if (!(jacobian(Vector3(i, j, k)/n).determinant() > 0))
+                if (!(frameJacobian(Vector3(i, j, k)/n).determinant() > 0))
                 {
                     throw std::invalid_argument
                     (
@@ -328,20 +334,6 @@ HexahedralFrame::HexahedralFrame(const std::array<Vector3, 8>& corners)
             }
         }
     }
-}
-
-
-Eigen::Matrix3d HexahedralFrame::jacobian(const Vector3& xi) const
-{
-    Eigen::Matrix3d J;
-    for (int c = 0; c < 3; ++c)
-    {
-        Vector3 from = xi, to = xi;
-        from[c] = 0;
-        to[c] = 1;
-        J.col(c) = position(to) - position(from);
-    }
-    return J;
 }
 
 
@@ -374,11 +366,19 @@ Vector3 HexahedralFrame::coordinates(const Vector3& x) const
         return nowhere;
     }
 
+    // Of the map where it is flat: dividing by it is trapped
+    const double size =
+        std::abs(frameJacobian(Vector3::Constant(0.5)).determinant());
     const int most = 50;
     Vector3 xi = Vector3::Constant(0.5);
     for (int i = 0; i < most; ++i)
     {
-        const Vector3 step = jacobian(xi).partialPivLu().solve(x - position(xi));
+        const Eigen::Matrix3d J = frameJacobian(xi);
+        if (!(std::abs(J.determinant()) > 1e-9*size))
+        {
+            return nowhere;
+        }
+        const Vector3 step = J.partialPivLu().solve(x - position(xi));
         xi += step;
         if (!(xi.cwiseAbs().maxCoeff() < 100))
         {
@@ -395,7 +395,7 @@ Vector3 HexahedralFrame::coordinates(const Vector3& x) const
 
 Eigen::Matrix3d HexahedralFrame::gradient(const Vector3& x) const
 {
-    return jacobian(coordinates(x)).inverse();
+    return frameJacobian(coordinates(x)).inverse();
 }
 
 

@@ -53,8 +53,15 @@ public:
     // d xi / d x
     virtual Eigen::Matrix3d gradient(const Vector3& x) const = 0;
 
-    // Where xi is in coordinates of the frame: trilinear
+    // Where xi is in coordinates of the frame: trilinear, unless the map has
+    // control points
     virtual Vector3 frameCoordinates(const Vector3& xi) const = 0;
+
+    // Its derivative by xi
+    virtual Eigen::Matrix3d frameJacobian(const Vector3& xi) const;
+
+    // Of a map that is a sum over the functions of the lattice; none otherwise
+    virtual const Vectors* controlPoints() const { return nullptr; }
 
     // The displacement, in coordinates of the frame, of a lattice point whose
     // rest is at xi, by a vector in fractions of the box
@@ -189,9 +196,6 @@ public:
     Vector3 fromUnits(const Vector3& vector) const override;
 
 private:
-
-    // d x / d xi
-    Eigen::Matrix3d jacobian(const Vector3& xi) const;
 
     std::array<Vector3, 8> corners_;
 

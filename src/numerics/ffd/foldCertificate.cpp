@@ -128,6 +128,7 @@ FoldCertificate::FoldCertificate
 
 TensorPolynomial FoldCertificate::inSpan
 (
+    const Vectors& control,
     const std::array<Index, 3>& number,
     int component
 ) const
@@ -161,7 +162,7 @@ TensorPolynomial FoldCertificate::inSpan
                   ? lattice_.weights()[std::size_t(from)]
                   : 1;
                 plane(i, j) =
-                    component == 3 ? weight : weight*control_(from, component);
+                    component == 3 ? weight : weight*control(from, component);
             }
         }
         planes.push_back
@@ -214,11 +215,15 @@ FoldCertificate::Span FoldCertificate::span
     for (int c = 0; c < 3; ++c)
     {
         const std::size_t i = std::size_t(c);
-        span.rest[i] = TensorPolynomial({{1, 1, 1}}, corners[i]);
-        span.moved[i] = inSpan(number, c);
+        span.rest[i] =
+            frame_.controlPoints()
+          ? inSpan(*frame_.controlPoints(), number, c)
+          : TensorPolynomial({{1, 1, 1}}, corners[i]);
+        span.moved[i] = inSpan(control_, number, c);
         span.moves = span.moves || !span.moved[i].isZero();
     }
-    span.weight = lattice_.rational() ? inSpan(number, 3) : TensorPolynomial(1);
+    span.weight =
+        lattice_.rational() ? inSpan(control_, number, 3) : TensorPolynomial(1);
     return span;
 }
 

@@ -79,9 +79,11 @@ private:
 
     Span span(const std::array<Index, 3>& number) const;
 
-    // A component of the control points in a span, times weight; 3 is weight
+    // A component of vectors of the control points in a span, times weight; 3
+    // is weight
     TensorPolynomial inSpan
     (
+        const Vectors& control,
         const std::array<Index, 3>& number,
         int component
     ) const;
