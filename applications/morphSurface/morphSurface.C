@@ -337,7 +337,7 @@ int main(int argc, char *argv[])
         ),
         nullptr
     );
-    ffdBoxes boxes(fitted(dict, surface));
+    ffdBoxes boxes(fitted(dict, surface), nullptr);
     boxes.setPoints(points, edgesOf(surface));
     const scalar time = args.getOrDefault<scalar>("time", 0);
     if (!std::isfinite(time))
