@@ -11,13 +11,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "ffdMeasures.H"
 #include "ffdMotionSolver.H"
 #include "ffdPreview.H"
+#include "foamCompat.H"
 #include "fvMesh.H"
+#include "motionSensitivities.H"
 #include "OFstream.H"
 #include "OSspecific.H"
 #include "plainText.H"
-#include "motionSensitivities.H"
 #include "pointFields.H"
-#include "pointMesh.H"
 #include "shapeConstraints.H"
 
 #include <limits>
@@ -296,7 +296,7 @@ void Foam::morphMeshControls::writeSensitivities
                     IOobject::NO_WRITE,
                     false
                 ),
-                pointMesh::New(mesh),
+                foamCompat::pointMeshOf(mesh),
                 dimensionedVector(dimLength, Zero)
             );
             field.primitiveFieldRef() = parameters->sensitivity(i);

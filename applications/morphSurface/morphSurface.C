@@ -70,6 +70,7 @@ Usage
 #include "triSurface.H"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 using namespace Foam;
@@ -101,6 +102,27 @@ static dictionary readBoxes(const fileName& file)
             << exit(FatalIOError);
     }
     return dict.optionalSubDict("ffdMotionSolverCoeffs");
+}
+
+
+//- The option -time. OpenFOAM's own reading compares what is not a number,
+//  which is trapped
+static scalar readTime(const argList& args)
+{
+    if (!args.found("time"))
+    {
+        return 0;
+    }
+    const string& given = args["time"];
+    char* end = nullptr;
+    const double time = std::strtod(given.c_str(), &end);
+    if (end == given.c_str() || *end || !std::isfinite(time))
+    {
+        FatalErrorInFunction
+            << "Option -time is " << given.c_str() << nl
+            << "    Give a number" << nl << exit(FatalError);
+    }
+    return time;
 }
 
 
@@ -334,19 +356,11 @@ int main(int argc, char *argv[])
         readBoxes
         (
             args.getOrDefault<fileName>("dict", "constant/dynamicMeshDict")
-        ),
-        nullptr
+        )
     );
     ffdBoxes boxes(fitted(dict, surface), nullptr);
     boxes.setPoints(points, edgesOf(surface));
-    const scalar time = args.getOrDefault<scalar>("time", 0);
-    if (!std::isfinite(time))
-    {
-        FatalErrorInFunction
-            << "Option -time is " << args["time"] << nl
-            << "    Give a number" << nl << exit(FatalError);
-    }
-    boxes.update(time);
+    boxes.update(readTime(args));
     const pointField moved(points + boxes.displacement());
     const faceList faces(facesOf(surface));
     const ffdMeasures measures(boxes, points, faces);

@@ -58,7 +58,7 @@ def test_nozzle_thickness(tmp_path):
 
     # The wall at x = 1 by Bernstein polynomials: radius 0.35 and 0.45
     def opens(r):
-        s, t = (r - 0.2)/0.5, (1 + 0.2)/2.4
+        s, t = (r - 0.1)/0.5, (1 + 0.2)/2.4
         return 3*s*(1 - s)**2*6*t**2*(1 - t)**2
     mu = float(steps[-1][0])
     wall = 0.1 + mu*(opens(0.45) - opens(0.35))

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-value = 0.25
+value = 0.35
 for step in range(8):
     Path("results/value").write_text(f"{value!r};\n")
     done = subprocess.run(
