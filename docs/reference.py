@@ -25,7 +25,9 @@ DICTIONARIES = [
     ("surface or target: a cylinder", "cylinderSurface", []),
     ("surface or target: others", "analyticSurface", ["slidingSurface"]),
     ("displacement: pointDisplacement", "fieldDisplacement", []),
+    ("displacement: cellDisplacement", "cellDisplacement", []),
     ("displacement: uniform", "uniformDisplacement", []),
+    ("displacement: velocity", "velocityDisplacement", []),
     ("displacement: solidBody", "solidBodyDisplacement", []),
     ("displacement: values", "valuesDisplacement",
      ["valuesDisplacement", "tabulatedDisplacement"]),
@@ -64,8 +66,11 @@ EXPLAINED = [
 # Sources that read what no user writes, and why
 NOT_A_USERS = {
     "rbfMotionState": "the file that a restart reads",
+    "cellDisplacementField": "OpenFOAM's own field file",
+    "otherSolvers": "entries of OpenFOAM's motion solvers, for messages",
     "pointDisplacementField": "OpenFOAM's own field file",
     "motionZone": "entries of OpenFOAM's, which the solvers refuse",
+    "velocityFields": "field files of OpenFOAM's motion solvers, for messages",
     "prescribedDisplacement": "the type of a displacement: in each table",
 }
 

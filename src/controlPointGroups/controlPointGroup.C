@@ -4,6 +4,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "controlPointGroup.H"
+#include "cellDisplacementField.H"
+#include "constraintPatches.H"
 #include "dictionaryChecks.H"
 #include "pointDisplacementField.H"
 #include "emptyPolyPatch.H"
@@ -83,10 +85,10 @@ Foam::controlPointGroup::controlPointGroup
         }
     );
 
-    if (dict.found("patches"))
-    {
-        selectPatches();
-    }
+    const wordList constrained
+    (
+        dict.found("patches") ? selectPatches() : wordList()
+    );
     if (dict.found("faceZones"))
     {
         faceZones_ =
@@ -103,19 +105,9 @@ Foam::controlPointGroup::controlPointGroup
     {
         listed_ = dict.get<pointField>("points");
     }
-    if
-    (
-        patches_.empty() && faceZones_.empty() && pointZones_.empty()
-     && listed_.empty()
-    )
-    {
-        FatalIOErrorInFunction(dict)
-            << "Group '" << name << "' selects no control points" << nl
-            << "    Give it 'patches', 'faceZones', 'pointZones' or 'points'"
-            << nl << exit(FatalIOError);
-    }
-
+    checkSelection(constrained);
     checkSurface();
+    checkConstraints();
     checkDisplacement();
 }
 
@@ -139,8 +131,10 @@ Foam::controlPointGroup::controlPointGroup
 {
     if (r == role::moving)
     {
+        const auto* cells = cellDisplacementField::of(mesh);
+        const bool fromCells = cells && cells->moves(patchi);
         dictionary field;
-        field.add("type", "pointDisplacement");
+        field.add("type", fromCells ? "cellDisplacement" : "pointDisplacement");
         displacement_ =
             prescribedDisplacement::New(field, mesh, patches_, 0);
     }
@@ -153,7 +147,7 @@ Foam::controlPointGroup::controlPointGroup
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::controlPointGroup::selectPatches()
+Foam::wordList Foam::controlPointGroup::selectPatches()
 {
     const polyBoundaryMesh& boundary = mesh_.boundaryMesh();
     labelHashSet selected;
@@ -189,18 +183,87 @@ void Foam::controlPointGroup::selectPatches()
         selected |= these;
     }
 
+    DynamicList<word> constrained;
     for (const label patchi : selected.sortedToc())
     {
         const polyPatch& patch = boundary[patchi];
-        const bool constrained =
-            patch.coupled()
-         || isA<emptyPolyPatch>(patch)
-         || isA<wedgePolyPatch>(patch);
 
         // A pattern such as ".*" means the patches that can be controlled
-        if (!constrained)
+        if
+        (
+            patch.coupled()
+         || isA<emptyPolyPatch>(patch)
+         || isA<wedgePolyPatch>(patch)
+        )
+        {
+            if (patchi < boundary.nNonProcessor())
+            {
+                constrained.append(patch.name() + " (" + patch.type() + ')');
+            }
+        }
+        else
         {
             patches_.append(patchi);
+        }
+    }
+    return wordList(constrained);
+}
+
+
+void Foam::controlPointGroup::checkSelection
+(
+    const wordList& constrained
+) const
+{
+    if
+    (
+        patches_.size() || faceZones_.size() || pointZones_.size()
+     || listed_.size()
+    )
+    {
+        return;
+    }
+
+    if (constrained.size())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Group '" << name_ << "' selects no control points: its patches "
+            << flatOutput(constrained) << " keep what their types say" << nl
+            << "    Remove the group: such patches move with the mesh" << nl
+            << exit(FatalIOError);
+    }
+    FatalIOErrorInFunction(dict_)
+        << "Group '" << name_ << "' selects no control points" << nl
+        << "    Give it 'patches', 'faceZones', 'pointZones' or 'points'"
+        << nl << exit(FatalIOError);
+}
+
+
+void Foam::controlPointGroup::checkConstraints() const
+{
+    const bool surfaceMoves =
+        target_ || surface_ == surfaceType::named
+     || dict_.found("displacement");
+    if (!slides() || !surfaceMoves)
+    {
+        return;
+    }
+    const labelHashSet constraints
+    (
+        constraintPatches::slidingSurfaces(mesh_)
+    );
+    for (const label patchi : patches_)
+    {
+        if (constraints.found(patchi))
+        {
+            const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+            FatalIOErrorInFunction(dict_)
+                << "Group '" << name_ << "' moves the surface of patch '"
+                << patch.name() << "', but a patch of type " << patch.type()
+                << " stays in its own" << nl
+                << "    Remove the patch from the group; if it is no "
+                << patch.type() << " give it another type in "
+                << "constant/polyMesh/boundary" << nl << exit(FatalIOError);
         }
     }
 }
@@ -333,16 +396,18 @@ void Foam::controlPointGroup::checkDisplacement()
 
 bool Foam::controlPointGroup::moves() const
 {
+    // What surfaces do is looked at in every step; of points that move by a
+    // condition it matters where they may have images
     if (!displacement_.valid())
     {
         return false;
     }
-    if (!fromField())
+    if (slides() || !fromField())
     {
         return true;
     }
 
-    // A plain fixedValue of zero is zero for ever
+    // A plain fixedValue of zero is zero until somebody fills it
     const auto& field =
         mesh_.lookupObject<pointVectorField>("pointDisplacement");
     bool some = false;
@@ -364,6 +429,40 @@ bool Foam::controlPointGroup::moves() const
         }
     }
     return returnReduce(some, orOp<bool>());
+}
+
+
+bool Foam::controlPointGroup::mayMove() const
+{
+    return displacement_.valid() || target_;
+}
+
+
+Foam::string Foam::controlPointGroup::mover() const
+{
+    OStringStream text;
+    if (target_)
+    {
+        text<< "group " << name_ << " (target)";
+    }
+    else if (!fromField())
+    {
+        text<< "group " << name_ << " (displacement " << displacement_->type()
+            << ')';
+    }
+    else
+    {
+        const auto& field =
+            mesh_.lookupObject<pointVectorField>("pointDisplacement");
+        forAll(patches_, i)
+        {
+            const polyPatch& patch = mesh_.boundaryMesh()[patches_[i]];
+            text<< (i ? ", " : "") << "patch " << patch.name() << " ("
+                << pointDisplacementField::condition(field, patch).type()
+                << ')';
+        }
+    }
+    return text.str();
 }
 
 

@@ -6,10 +6,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "controlPointGroups.H"
 #include "basicSymmetryPointPatchField.H"
 #include "calculatedPointPatchField.H"
+#include "cellDisplacementField.H"
+#include "constraintPatches.H"
+#include "otherSolvers.H"
 #include "pointDisplacementField.H"
 #include "pointFields.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
+#include "velocityFields.H"
 #include "zeroGradientPointPatchField.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -22,6 +24,9 @@ static bool slidingCondition(const pointPatchVectorField& condition)
     return isA<basicSymmetryPointPatchField<vector>>(condition);
 }
 
+
+static const char* const frozenPoints = "frozenPointsZone";
+
 } // End namespace Foam
 
 
@@ -30,18 +35,24 @@ static bool slidingCondition(const pointPatchVectorField& condition)
 Foam::controlPointGroups::controlPointGroups
 (
     const polyMesh& mesh,
+    const dictionary& dict,
     const dictionary& coeffs,
+    const word& solver,
     const pointVectorField& pointDisplacement
 )
 :
     mesh_(mesh),
-    pointDisplacement_(pointDisplacement)
+    dict_(dict),
+    solver_(solver),
+    pointDisplacement_(pointDisplacement),
+    constraints_(constraintPatches::slidingSurfaces(mesh))
 {
-    const dictionary* dict = coeffs.findDict("controlPoints");
-    if (dict)
+    freeze(coeffs);
+    const dictionary* groups = coeffs.findDict("controlPoints");
+    if (groups)
     {
-        readGroups(*dict);
-        addSymmetryPatches();
+        readGroups(*groups);
+        addConstraintPatches();
     }
     else if (coeffs.found("controlPoints"))
     {
@@ -58,6 +69,29 @@ Foam::controlPointGroups::controlPointGroups
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::controlPointGroups::freeze(const dictionary& coeffs)
+{
+    if (!coeffs.found(frozenPoints))
+    {
+        return;
+    }
+    const wordList zones(mesh_.pointZones().names());
+    const word zone(coeffs.get<word>(frozenPoints));
+    if (!zones.found(zone))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Entry '" << frozenPoints << "': no pointZone is called '"
+            << zone << "'" << nl
+            << "    There are: " << flatOutput(zones) << nl
+            << exit(FatalIOError);
+    }
+    dictionary group(coeffs, dictionary());
+    group.add("type", "fixed");
+    group.add("pointZones", wordList(1, zone));
+    append(new controlPointGroup(frozenPoints, group, mesh_));
+}
+
 
 void Foam::controlPointGroups::readGroups(const dictionary& dict)
 {
@@ -76,19 +110,16 @@ void Foam::controlPointGroups::readGroups(const dictionary& dict)
 }
 
 
-void Foam::controlPointGroups::addSymmetryPatches()
+void Foam::controlPointGroups::addConstraintPatches()
 {
     labelHashSet selected;
     for (const controlPointGroup& group : *this)
     {
         selected.insert(group.patches());
     }
-    forAll(mesh_.boundaryMesh(), patchi)
+    for (const label patchi : constraints_.sortedToc())
     {
-        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-        const bool symmetric =
-            isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch);
-        if (symmetric && !selected.found(patchi))
+        if (!selected.found(patchi))
         {
             append
             (
@@ -108,6 +139,7 @@ void Foam::controlPointGroups::groupsFromField(const dictionary& coeffs)
 
     // Where patches meet the last one wins, as it does when OpenFOAM evaluates
     // the boundary conditions one after the other
+    const auto* cells = cellDisplacementField::of(mesh_);
     typedef controlPointGroup::role role;
     for (const role r : {role::moving, role::sliding})
     {
@@ -118,12 +150,14 @@ void Foam::controlPointGroups::groupsFromField(const dictionary& coeffs)
                 (
                     pointDisplacement_, mesh_.boundaryMesh()[patchi]
                 );
-            const bool slides = slidingCondition(condition);
+            const bool slides =
+                slidingCondition(condition) || constraints_.found(patchi);
             if
             (
                 r == role::sliding
               ? slides
-              : !slides && condition.fixesValue()
+              : !slides
+             && (condition.fixesValue() || (cells && cells->moves(patchi)))
             )
             {
                 append(new controlPointGroup(mesh_, patchi, r));
@@ -154,7 +188,8 @@ void Foam::controlPointGroups::checkConditions
         (
             !condition.fixesValue()
          && !slidingCondition(condition)
-         && !polyPatch::constraintType(patch.type())
+         && condition.constraintType() == word::null
+         && condition.patch().constraintType() == word::null
          && !isA<zeroGradientPointPatchField<vector>>(condition)
          && !isA<calculatedPointPatchField<vector>>(condition)
         )
@@ -201,20 +236,60 @@ void Foam::controlPointGroups::checkThatSomethingMoves
     const dictionary& coeffs
 ) const
 {
+    bool moves = false, may = false;
     for (const controlPointGroup& group : *this)
     {
-        if (group.moves())
-        {
-            return;
-        }
+        moves = moves || group.moves() || group.hasTarget();
+        may = may || group.mayMove();
+    }
+    if (moves)
+    {
+        return;
     }
 
-    FatalIOErrorInFunction(coeffs)
-        << "Nothing moves the mesh, and nothing ever could" << nl
-        << "    Give a patch a moving condition in "
-        << pointDisplacement_.objectPath() << nl
-        << "    or add a group of type moving to 'controlPoints'"
-        << nl << exit(FatalIOError);
+    const fileName field
+    (
+        mesh_.time().relativePath(pointDisplacement_.objectPath())
+    );
+    const string bodies(otherSolvers::bodies(dict_, field));
+    if (bodies.size())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Nothing moves the mesh: " << solver_ << " does not move the"
+            << " body of this dictionary by itself" << nl
+            << "    Let its patch move:" << nl << bodies.c_str() << nl
+            << exit(FatalIOError);
+    }
+    if (!may)
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Nothing moves the mesh: no patch or group prescribes a motion"
+            << nl << others().c_str()
+            << "    Give a patch a moving condition in " << field
+            << ": fixedValue (a coupling may fill it)," << nl
+            << "    uniformFixedValue, solidBodyMotionDisplacement,"
+            << " oscillatingDisplacement, sixDoFRigidBodyDisplacement" << nl
+            << "    (a body that floats), ...; or add a group of type moving to"
+            << " 'controlPoints'" << nl << exit(FatalIOError);
+    }
+}
+
+
+Foam::string Foam::controlPointGroups::others() const
+{
+    bool tells = false;
+    const string lines
+    (
+        otherSolvers::leftovers(dict_, solver_, tells)
+    );
+    string text(velocityFields::asGroups(mesh_));
+    if (lines.size())
+    {
+        text +=
+            "    " + mesh_.time().relativePath(dict_.name())
+          + " has entries of other motion solvers:\n" + lines;
+    }
+    return text;
 }
 
 
@@ -230,6 +305,47 @@ bool Foam::controlPointGroups::fromField() const
         }
     }
     return false;
+}
+
+
+void Foam::controlPointGroups::report(const bool moves) const
+{
+    const fileName file(mesh_.time().relativePath(dict_.name()));
+    bool tells = false;
+    const string left(otherSolvers::leftovers(dict_, solver_, tells));
+    if (moves && tells)
+    {
+        IOWarningInFunction(dict_)
+            << solver_ << " does not read what " << file
+            << " has for other motion solvers:" << nl
+            << left.c_str()
+            << "    Remove it, or write what does the same here" << endl;
+    }
+    else if (moves && left.size())
+    {
+        Info<< solver_ << " does not read what " << file
+            << " has for other motion solvers:" << nl << left.c_str() << flush;
+    }
+    if (moves)
+    {
+        return;
+    }
+
+    string movers;
+    for (const controlPointGroup& group : *this)
+    {
+        if (group.mayMove())
+        {
+            movers += "        " + group.mover() + '\n';
+        }
+    }
+    const string lines(others());
+    IOWarningInFunction(dict_)
+        << "Nothing moves the mesh: at time " << mesh_.time().timeName()
+        << " every displacement is zero" << nl
+        << "    Nothing is to be done if it is to rest or a coupling is about to"
+        << " move it. It follows what these say:" << nl
+        << movers.c_str() << lines.c_str() << endl;
 }
 
 

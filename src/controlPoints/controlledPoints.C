@@ -38,7 +38,8 @@ Foam::controlledPoints::controlledPoints
     points0_(points0),
     groups_(groups),
     plane_(reduced.plane()),
-    coupled_(reduced.coupled())
+    coupled_(reduced.coupled()),
+    constraints_(mesh, points0, &plane_)
 {
     assign(listedPoints);
     findMembers();
@@ -266,7 +267,7 @@ void Foam::controlledPoints::matchCopies
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::vectorField Foam::controlledPoints::displacements() const
+Foam::vectorField Foam::controlledPoints::displacements(string& lost) const
 {
     vectorField d(labels_.size(), unknown);
     forAll(groups_, groupi)
@@ -298,10 +299,38 @@ Foam::vectorField Foam::controlledPoints::displacements() const
         mesh_, labels_, d, minMagSqrEqOp<vector>(), unknown
     );
     matchCopies(told, d);
+    scalar largest = 0, most = 0;
+    label worst = -1;
     forAll(d, i)
     {
-        d[i] = plane_.reduceMotion(points0_[labels_[i]], d[i]);
+        const label pointi = labels_[i];
+        d[i] = plane_.reduceMotion(points0_[pointi], d[i]);
+        if (!slides(i))
+        {
+            // Surfaces to slide on see to it themselves
+            const vector kept = constraints_.kept(pointi, d[i]);
+            if (mag(d[i] - kept) > most)
+            {
+                most = mag(d[i] - kept);
+                worst = i;
+            }
+            d[i] = kept;
+        }
+        largest = max(largest, mag(d[i]));
     }
+
+    OStringStream words;
+    if (worst >= 0 && most > 1e-6*(largest + most))
+    {
+        const polyPatch& patch =
+            mesh_.boundaryMesh()[constraints_.patchOf(labels_[worst])];
+        words
+            << "group '" << groups_[group_[worst]].name()
+            << "' tells the point at " << points0_[labels_[worst]]
+            << " to leave patch '" << patch.name() << "' of type "
+            << patch.type() << " by " << most << " m";
+    }
+    lost = words.str();
     return d;
 }
 

@@ -29,31 +29,16 @@ namespace Foam
 static const morph::Index mostImages = 200;
 
 
-// Patches whose points slide on a plane of symmetry that does not move
-static labelHashSet mirrorPatches
-(
-    const polyMesh& mesh,
-    const controlPointGroups& groups
-)
+// Planes of symmetry, which keep their points whatever groups say
+static labelHashSet mirrorPatches(const polyMesh& mesh)
 {
-    labelHashSet mirrors, taken;
-    for (const controlPointGroup& group : groups)
+    labelHashSet mirrors;
+    forAll(mesh.boundaryMesh(), patchi)
     {
-        for (const label patchi : group.patches())
+        const polyPatch& patch = mesh.boundaryMesh()[patchi];
+        if (isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch))
         {
-            const polyPatch& patch = mesh.boundaryMesh()[patchi];
-            const bool symmetric =
-                isA<symmetryPolyPatch>(patch)
-             || isA<symmetryPlanePolyPatch>(patch);
-            if
-            (
-                symmetric && !taken.found(patchi)
-             && group.slides() && !group.moves()
-            )
-            {
-                mirrors.insert(patchi);
-            }
-            taken.insert(patchi);
+            mirrors.insert(patchi);
         }
     }
     return mirrors;
@@ -103,7 +88,7 @@ Foam::motionImages::motionImages
     settings_(s),
     found_
     (
-        mesh, points0, plane, mirrorPatches(mesh, groups), movingPoints(groups),
+        mesh, points0, plane, mirrorPatches(mesh), movingPoints(groups),
         listedPoints(groups)
     ),
     supportRadius_(0)

@@ -8,6 +8,17 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "StringStream.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// In units of the mesh's size: what corners may be off their surfaces
+static const scalar cornerTolerance = 1e-6;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::rbfControlPoints::rbfControlPoints
@@ -32,6 +43,7 @@ Foam::rbfControlPoints::rbfControlPoints
         mesh, dict, points0, groups, reduced.plane(), featureAngle,
         controlled_.labels(), controlled_.onAxis()
     ),
+    warned_(false),
     follow_(false),
     farthest_(boundBox(points0, true).mag()),
     listedRegions_(regionsOfListed())
@@ -73,6 +85,51 @@ Foam::labelList Foam::rbfControlPoints::regionsOfListed() const
         positions[i] = listedPoints_.position(i);
     }
     return reduced_.regionsAt(positions);
+}
+
+
+void Foam::rbfControlPoints::warnOf(const string& lost)
+{
+    if (warned_)
+    {
+        return;
+    }
+    const string first(dictionaryChecks::firstOf(lost));
+    warned_ = first.size();
+    if (warned_)
+    {
+        IOWarningInFunction(dict_)
+            << "Displacements leave patches that keep their points: "
+            << first.c_str() << nl
+            << "    The part that leaves them is taken away. Tell the group to"
+            << " move along them, or change the type of the patch" << endl;
+    }
+}
+
+
+void Foam::rbfControlPoints::takeCorners(vectorField& d) const
+{
+    OStringStream message;
+    forAll(d, i)
+    {
+        if (!controlled_.slides(i) || !sliding_.cornerMoves(i))
+        {
+            continue;
+        }
+        scalar off = 0;
+        d[i] = sliding_.corner(i, off);
+        if (off > cornerTolerance*farthest_ && message.str().empty())
+        {
+            message
+                << "The corner at " << controlled_.position(i) << " cannot be"
+                << " on all of its surfaces: it ends " << off << " m from them."
+                << " Those of group '" << controlled_.group(i).name()
+                << "' do not meet their neighbours" << nl
+                << "    Give it a target that meets the others there, or do not"
+                << " let those slide";
+        }
+    }
+    dictionaryChecks::stopIf(dict_, message.str());
 }
 
 
@@ -289,7 +346,10 @@ bool Foam::rbfControlPoints::surfacesStay() const
 bool Foam::rbfControlPoints::update(const bool rebuild)
 {
     const bool changed = sliding_.update(rebuild);
-    const vectorField d(controlled_.displacements());
+    string lost;
+    vectorField d(controlled_.displacements(lost));
+    warnOf(lost);
+    takeCorners(d);
     if (changed || rebuild || start_.size() != d.size())
     {
         start_.setSize(d.size());
@@ -478,6 +538,11 @@ void Foam::rbfControlPoints::impose
             const morph::Vector3 s = toEigen(d);
             d += toFoam(p.C()*p.residual(s).head(p.k));
         }
+    }
+    for (const label pointi : controlled_.constraints().onPlanes())
+    {
+        vector& d = displacement[pointi];
+        d = controlled_.constraints().kept(pointi, d);
     }
 }
 

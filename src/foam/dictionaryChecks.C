@@ -47,28 +47,38 @@ Foam::scalar Foam::dictionaryChecks::getPositive
 }
 
 
+Foam::string Foam::dictionaryChecks::firstOf(const string& message)
+{
+    if (!returnReduce(!message.empty(), orOp<bool>()))
+    {
+        return string::null;
+    }
+
+    List<string> messages(Pstream::nProcs());
+    messages[Pstream::myProcNo()] = message;
+    foamCompat::allGatherList(messages);
+    for (const string& first : messages)
+    {
+        if (!first.empty())
+        {
+            return first;
+        }
+    }
+    return string::null;
+}
+
+
 void Foam::dictionaryChecks::stopIf
 (
     const dictionary& dict,
     const string& message
 )
 {
-    if (!returnReduce(!message.empty(), orOp<bool>()))
+    const string first(firstOf(message));
+    if (!first.empty())
     {
-        return;
-    }
-
-    List<string> messages(Pstream::nProcs());
-    messages[Pstream::myProcNo()] = message;
-    foamCompat::allGatherList(messages);
-
-    for (const string& first : messages)
-    {
-        if (!first.empty())
-        {
-            FatalIOErrorInFunction(dict)
-                << first.c_str() << nl << exit(FatalIOError);
-        }
+        FatalIOErrorInFunction(dict)
+            << first.c_str() << nl << exit(FatalIOError);
     }
 }
 

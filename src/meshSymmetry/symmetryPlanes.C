@@ -4,10 +4,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "symmetryPlanes.H"
+#include "constraintPatches.H"
+#include "emptyPolyPatch.H"
 #include "surfaceNormals.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
 #include "syncTools.H"
+#include "unitConversion.H"
+#include "wedgePolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -16,6 +18,9 @@ namespace Foam
 
 // Angle between faces of what is taken as one plane [rad]
 static const scalar planar = 1e-3;
+
+// Between faces on either side of an edge
+static const scalar edgeAngle = degToRad(30);
 
 
 // Add what of n is independent of an orthonormal basis
@@ -34,79 +39,155 @@ static void addDirection(List<vector>& basis, vector n)
 } // End namespace Foam
 
 
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::symmetryPlanes::addPatch
+(
+    const polyPatch& patch,
+    const pointField& points,
+    labelHashSet& curved
+)
+{
+    const polyMesh& mesh = patch.boundaryMesh().mesh();
+    vectorField areas(patch.size());
+    forAll(areas, facei)
+    {
+        areas[facei] = patch[facei].areaNormal(points);
+    }
+    const surfaceNormals::plane plane(surfaceNormals::planeOf(areas));
+    if (plane.empty)
+    {
+        return;
+    }
+
+    // Ranks may have points of a patch, but no face of it
+    boolList isOn(mesh.nPoints(), false);
+    UIndirectList<bool>(isOn, patch.meshPoints()) = true;
+    syncTools::syncPointList(mesh, isOn, orEqOp<bool>(), false);
+    const labelList on(findIndices(isOn, true));
+    List<List<vector>> around(on.size());
+    if (plane.deviation > planar)
+    {
+        Map<label> place(2*on.size());
+        forAll(on, i)
+        {
+            place.insert(on[i], i);
+        }
+        forAll(patch, facei)
+        {
+            for (const label pointi : patch[facei])
+            {
+                around[place[pointi]].append(areas[facei]);
+            }
+        }
+        syncTools::syncPointList
+        (
+            mesh,
+            on,
+            around,
+            ListOps::appendEqOp<vector>(),
+            List<vector>(),
+            mapDistribute::transform()
+        );
+    }
+
+    forAll(on, i)
+    {
+        List<vector>& basis = normals_(on[i]);
+        patch_.insert(on[i], patch.index());
+        if (plane.deviation <= planar)
+        {
+            addDirection(basis, plane.normal);
+            continue;
+        }
+        curved.insert(on[i]);
+        List<surfaceNormals::taggedNormal> normals(around[i].size());
+        forAll(normals, j)
+        {
+            normals[j] = {around[i][j], 0};
+        }
+        for
+        (
+            const surfaceNormals::taggedNormal& n
+          : surfaceNormals::distinct(normals, edgeAngle)
+        )
+        {
+            addDirection(basis, n.normal);
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::symmetryPlanes::symmetryPlanes
 (
     const polyMesh& mesh,
-    const pointField& points
+    const pointField& points,
+    const planarReduction* plane
 )
 {
-    Map<List<vector>> found;
-    for (const polyPatch& patch : mesh.boundaryMesh())
+    labelHashSet curved;
+    for (const label patchi : constraintPatches::keepingNormal(mesh))
     {
-        if (!isA<symmetryPolyPatch>(patch) && !isA<symmetryPlanePolyPatch>(patch))
+        const polyPatch& patch = mesh.boundaryMesh()[patchi];
+        const bool inPlane =
+            isA<wedgePolyPatch>(patch)
+         || (isA<emptyPolyPatch>(patch) && mesh.nGeometricD() > 1);
+        if (!inPlane)
         {
-            continue;
-        }
-        vectorField areas(patch.size());
-        forAll(areas, facei)
-        {
-            areas[facei] = patch[facei].areaNormal(points);
-        }
-        const surfaceNormals::plane plane(surfaceNormals::planeOf(areas));
-        if (plane.empty)
-        {
-            continue;
-        }
-
-        // Ranks may have points of a patch, but no face of it
-        boolList isOn(mesh.nPoints(), false);
-        UIndirectList<bool>(isOn, patch.meshPoints()) = true;
-        syncTools::syncPointList(mesh, isOn, orEqOp<bool>(), false);
-        forAll(isOn, pointi)
-        {
-            if (!isOn[pointi])
-            {
-                continue;
-            }
-            List<vector>& basis = found(pointi);
-            addDirection(basis, plane.normal);
-            for (direction d = 0; plane.deviation > planar && d < 3; ++d)
-            {
-                vector axis(Zero);
-                axis[d] = 1;
-                addDirection(basis, axis);
-            }
+            addPatch(patch, points, curved);
         }
     }
+    points_ = normals_.sortedToc();
+    labelHashSet onPlanes(points_);
+    onPlanes -= curved;
+    onPlanes_ = onPlanes.sortedToc();
 
-    points_ = found.sortedToc();
-    normals_.setSize(points_.size());
-    forAll(points_, i)
+    if (plane && plane->active())
     {
-        normals_[i] = found[points_[i]];
+        for (const label pointi : points_)
+        {
+            List<vector> reduced;
+            for (const vector& n : normals_[pointi])
+            {
+                addDirection(reduced, plane->reduce(points[pointi], n));
+            }
+            normals_[pointi] = reduced;
+        }
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::vector Foam::symmetryPlanes::kept(const label pointi, vector d) const
+{
+    const auto found = normals_.cfind(pointi);
+    if (!found.found())
+    {
+        return d;
+    }
+    if (found.val().size() == 3)
+    {
+        return Zero;
+    }
+    for (const vector& n : found.val())
+    {
+        d -= (d & n)*n;
+    }
+    return d;
+}
+
+
 Foam::scalar Foam::symmetryPlanes::impose(vectorField& displacement) const
 {
     scalar largest = 0;
-    forAll(points_, i)
+    for (const label pointi : points_)
     {
-        vector& d = displacement[points_[i]];
+        vector& d = displacement[pointi];
         const vector given(d);
-        if (normals_[i].size() == 3)
-        {
-            d = Zero;
-        }
-        for (const vector& n : normals_[i])
-        {
-            d -= (d & n)*n;
-        }
+        d = kept(pointi, d);
         largest = max(largest, mag(given - d));
     }
     return returnReduce(largest, maxOp<scalar>());

@@ -21,6 +21,42 @@ namespace Foam
     );
 }
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// The dictionary, without coefficients that the function would not read
+static const dictionary& checked(const dictionary& dict)
+{
+    const word name(dict.get<word>("solidBodyMotionFunction"));
+    const word coeffs(name + "Coeffs");
+    if (dict.found(coeffs))
+    {
+        dictionaryChecks::onlyKeys
+        (
+            dict, {"type", "solidBodyMotionFunction", name + "Coeffs"}
+        );
+    }
+    for (const entry& e : dict)
+    {
+        if (e.keyword().ends_with("Coeffs") && e.keyword() != coeffs)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << e.keyword() << "' belongs to another"
+                << " solidBodyMotionFunction than '"
+                << name << "'" << nl
+                << "    Call it '" << coeffs << "', or write its entries"
+                << " beside 'solidBodyMotionFunction'" << nl
+                << exit(FatalIOError);
+        }
+    }
+    return dict;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::solidBodyDisplacement::solidBodyDisplacement
@@ -32,15 +68,8 @@ Foam::solidBodyDisplacement::solidBodyDisplacement
 )
 :
     prescribedDisplacement(dict, mesh),
-    motion_(solidBodyMotionFunction::New(dict, mesh.time()))
-{
-    const word name(dict.get<word>("solidBodyMotionFunction"));
-    dictionaryChecks::onlyKeys
-    (
-        dict,
-        {"type", "solidBodyMotionFunction", name + "Coeffs"}
-    );
-}
+    motion_(solidBodyMotionFunction::New(checked(dict), mesh.time()))
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

@@ -121,7 +121,7 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
             "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
             "controlPoints", "greedy", "selection", "images",
             "surfaceCorrection", "featureAngle", "exactSliding",
-            "onInvalidMesh", "subSteps"
+            "onInvalidMesh", "subSteps", "frozenPointsZone"
         });
         keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(coeffDict(), keys);
@@ -133,6 +133,8 @@ const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 void Foam::rbfMotionSolver::initialise()
 {
     morphVersion::announce();
+    cellDisplacement_ =
+        cellDisplacementField::New(mesh(), points0(), pointDisplacement_);
     makeGroups();
 }
 
@@ -142,7 +144,10 @@ void Foam::rbfMotionSolver::makeGroups()
     zone_.reset(new motionZone(*this, coeffDict(), mesh()));
     groups_.reset
     (
-        new controlPointGroups(mesh(), coeffDict(), pointDisplacement_)
+        new controlPointGroups
+        (
+            mesh(), *this, coeffDict(), typeName, pointDisplacement_
+        )
     );
 }
 
@@ -163,6 +168,10 @@ void Foam::rbfMotionSolver::prepare()
         oneStep_.reset(new oneStepMotion(problem_(), state_));
     }
 
+    if (cellDisplacement_.valid())
+    {
+        cellDisplacement_->hear();
+    }
     if (groups_->fromField())
     {
         pointDisplacement_.boundaryFieldRef().updateCoeffs();
@@ -291,10 +300,12 @@ Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 void Foam::rbfMotionSolver::solve()
 {
     motionTimes times;
+    const bool first = !problem_.valid();
     prepare();
     times.lap(motionTimes::conditions);
 
-    if (oneStep_->active())
+    const bool moves = oneStep_->active();
+    if (moves)
     {
         rbfMotion motion(move());
         report_.write(problem_(), motion);
@@ -308,6 +319,14 @@ void Foam::rbfMotionSolver::solve()
     {
         pointDisplacement_.primitiveFieldRef() = Zero;
         summary_.add(times);
+    }
+    if (first)
+    {
+        groups_->report(moves);
+    }
+    if (cellDisplacement_.valid())
+    {
+        cellDisplacement_->tell();
     }
     if (debug)
     {
@@ -340,6 +359,10 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     oneStep_.clear();
     problem_.clear();
     report_.clear();
+    if (cellDisplacement_.valid())
+    {
+        cellDisplacement_->forget();
+    }
     makeGroups();
 }
 

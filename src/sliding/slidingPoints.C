@@ -7,6 +7,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "syncTools.H"
 
+#include <Eigen/Dense>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -149,6 +151,96 @@ void Foam::slidingPoints::findOffsets()
 }
 
 
+void Foam::slidingPoints::findCorners()
+{
+    cornerMoves_.setSize(controlled_.size());
+    cornerMoves_ = false;
+    forAll(present_, i)
+    {
+        if (!presence_.fixed(present_[i]))
+        {
+            continue;
+        }
+        for (const surfaceNormals::taggedNormal& n : present_[i])
+        {
+            if (n.surface >= 0)
+            {
+                const smoothPatch& s = smoothPatches_[n.surface];
+                cornerMoves_[i] =
+                    cornerMoves_[i] || smoothPatches_.moves(s)
+                 || (
+                        smoothPatches_.isNamed(s)
+                     && smoothPatches_.group(s).hasTarget()
+                    );
+            }
+        }
+    }
+}
+
+
+Foam::vector Foam::slidingPoints::wayIntoCorner
+(
+    const label i,
+    const vector& s,
+    scalar& off
+) const
+{
+    const point& x = points0_[controlled_[i]];
+    const point y = x + plane_.expand(x, s);
+    const List<surfaceNormals::taggedNormal>& present = present_[i];
+
+    Eigen::Matrix<double, Eigen::Dynamic, 3> normals(present.size(), 3);
+    Eigen::VectorXd distances(present.size());
+    forAll(present, j)
+    {
+        vector n = present[j].normal;
+        if (present[j].surface < 0)
+        {
+            // The axis of a wedge
+            normals.row(j) = toEigen(n).transpose();
+            distances[j] = n & s;
+            continue;
+        }
+
+        const smoothPatch& sh = smoothPatches_[present[j].surface];
+        label others = 0;
+        for (const surfaceNormals::taggedNormal& other : present)
+        {
+            others += (other.surface == present[j].surface);
+        }
+        if (sh.planar || (others > 1 && !smoothPatches_.isNamed(sh)))
+        {
+            n = sh.planar ? sh.normal : n;
+            const vector d =
+                plane_.reduce(x, smoothPatches_.vertices(sh)[vertex_[i]] - x);
+            distances[j] = n & (s - d);
+        }
+        else
+        {
+            const slidingSurface::contact c = smoothPatches_.nearest(sh, y);
+            n = plane_.reduce(x, c.normal);
+            const scalar size = max(mag(n), SMALL);
+            distances[j] = (c.normal & (y - c.position))/size;
+            n /= size;
+            if
+            (
+                smoothPatches_.isNamed(sh)
+             && !smoothPatches_.group(sh).hasTarget()
+            )
+            {
+                const slidingSurface::contact c0 = smoothPatches_.nearest(sh, x);
+                distances[j] -= (c0.normal & (x - c0.position))/size;
+            }
+        }
+        normals.row(j) = toEigen(n).transpose();
+    }
+    off = distances.cwiseAbs().maxCoeff();
+    const morph::Vector3 way =
+        normals.completeOrthogonalDecomposition().solve(-distances);
+    return toFoam(way);
+}
+
+
 bool Foam::slidingPoints::nearestOnEdge
 (
     const label i,
@@ -190,7 +282,29 @@ bool Foam::slidingPoints::update(const bool rebuild)
     present_ = presence_.present();
     findWhoFollows();
     findOffsets();
+    findCorners();
     return adopt(rebuild);
+}
+
+
+Foam::vector Foam::slidingPoints::corner(const label i, scalar& off) const
+{
+    // As long as it gets nearer
+    vector s(Zero);
+    vector way = wayIntoCorner(i, s, off);
+    for (label step = 0; step < mostSteps && off > 0; ++step)
+    {
+        scalar nearer;
+        const vector next = wayIntoCorner(i, s + way, nearer);
+        if (nearer >= off)
+        {
+            break;
+        }
+        s += way;
+        way = next;
+        off = nearer;
+    }
+    return s;
 }
 
 

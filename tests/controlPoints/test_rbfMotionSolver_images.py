@@ -91,27 +91,40 @@ def test_symmetry_planes_are_kept_without_control_points_on_them(tmp_path):
     np.testing.assert_allclose(found, expected, rtol=0, atol=2e-9)
 
 
-def test_a_displacement_across_a_symmetry_plane_leaves_no_images(tmp_path):
+def test_a_displacement_across_a_symmetry_plane_keeps_plane_and_images(
+        tmp_path):
     coeffs = LOOSE + groups(
         top="type moving; patches (zMax);" + uniform(0.1, 0, 0.1),
         bottom="type fixed; patches (zMin);")
-    case = rbf_case(tmp_path/"auto", patches=HALF, coeffs=coeffs)
-    before = reference(case)
-    output = case.run("moveDynamicMesh")
-    assert "leaves the plane of symmetry or axis of rotation there by 0.1" \
-        in output
-    # What slides below keeps its plane all the same
-    after = case.points("1/polyMesh/points")
-    on = side(before, "xMax") & (before[:, 2] < 0.9)
-    np.testing.assert_allclose(after[on, 0], 1, rtol=0, atol=1e-15)
+    for images in ("auto", "yes"):
+        case = rbf_case(tmp_path/images, patches=HALF,
+                        coeffs=f"images {images};" + coeffs)
+        before = reference(case)
+        output = case.run("moveDynamicMesh")
+        assert images_in(output) == [(3, 2, 0)]
+        assert output.count("leave patch 'xMax' of type symmetryPlane") == 1
+        after = case.points("1/polyMesh/points")
+        np.testing.assert_array_equal(after[side(before, "xMax"), 0], 1)
+        np.testing.assert_array_equal(after[side(before, "yMin"), 1], 0)
 
-    case = rbf_case(tmp_path/"yes", patches=HALF, coeffs="images yes;" + coeffs)
-    before = case.tree()
-    output = case.run("moveDynamicMesh", status=1)
-    assert "leaves the plane of symmetry or axis of rotation there by 0.1" \
-        in output
-    assert "images no" in output
-    assert case.tree() == before
+
+@pytest.mark.parametrize("images", ["auto", "yes"])
+def test_a_point_off_the_mesh_that_leaves_the_plane_has_no_image(tmp_path,
+                                                                 images):
+    """In the plane and no mesh point: nothing keeps it there but the mesh."""
+    coeffs = f"images {images};" + LOOSE + groups(
+        free=body(1, 0.3, 0.4, d=(0.1, 0, 0.1)), ends=ENDS)
+    case = rbf_case(tmp_path, patches=HALF, coeffs=coeffs)
+    before = reference(case)
+    why = "leaves the plane of symmetry or axis of rotation there by 0.1"
+    if images == "yes":
+        tree = case.tree()
+        assert why in case.run("moveDynamicMesh", status=1)
+        assert case.tree() == tree
+        return
+    assert why in case.run("moveDynamicMesh")
+    after = case.points("1/polyMesh/points")
+    np.testing.assert_array_equal(after[side(before, "xMax"), 0], 1)
 
 
 def test_what_moves_beside_a_symmetry_patch_in_its_plane_takes_its_images(

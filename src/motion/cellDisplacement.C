@@ -1,0 +1,99 @@
+/*---------------------------------------------------------------------------*\
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "cellDisplacement.H"
+#include "addToRunTimeSelectionTable.H"
+#include "cellDisplacementField.H"
+#include "dictionaryChecks.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(cellDisplacement, 0);
+    addToRunTimeSelectionTable
+    (
+        prescribedDisplacement,
+        cellDisplacement,
+        dictionary
+    );
+}
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::cellDisplacement::cellDisplacement
+(
+    const dictionary& dict,
+    const polyMesh& mesh,
+    const labelList& patches,
+    const label nListed
+)
+:
+    prescribedDisplacement(dict, mesh),
+    patches_(patches)
+{
+    dictionaryChecks::onlyKeys(dict, {"type"});
+
+    if (patches.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Displacement type 'cellDisplacement' takes its values from"
+            << " faces of patches, but this group selects none" << nl
+            << "    Give the group 'patches', or a 'displacement' of another"
+            << " type" << nl << exit(FatalIOError);
+    }
+    const auto* field = cellDisplacementField::of(mesh);
+    for (const label patchi : patches)
+    {
+        if (!field || !field->moves(patchi))
+        {
+            FatalIOErrorInFunction(dict)
+                << "The displacement of patch '"
+                << mesh.boundaryMesh()[patchi].name()
+                << "' is to come from cellDisplacement, which has no condition"
+                << " there that fixes the value, or pointDisplacement has one"
+                << nl
+                << "    Give it fixedValue in cellDisplacement and calculated"
+                << " in pointDisplacement" << nl << exit(FatalIOError);
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::tmp<Foam::vectorField> Foam::cellDisplacement::displacement
+(
+    const points& p
+) const
+{
+    Map<label> place(2*p.meshPoints.size());
+    forAll(p.meshPoints, i)
+    {
+        place.insert(p.meshPoints[i], i);
+    }
+
+    auto result = tmp<vectorField>::New(p.meshPoints.size(), Zero);
+    for (const label patchi : patches_)
+    {
+        const vectorField values
+        (
+            cellDisplacementField::of(mesh())->atPoints(patchi)
+        );
+        const labelList& meshPoints = mesh().boundaryMesh()[patchi].meshPoints();
+        forAll(meshPoints, i)
+        {
+            const auto found = place.cfind(meshPoints[i]);
+            if (found.found())
+            {
+                result.ref()[found.val()] = values[i];
+            }
+        }
+    }
+    return result;
+}
+
+
+// ************************************************************************* //
