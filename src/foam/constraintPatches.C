@@ -15,7 +15,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 Foam::labelList Foam::constraintPatches::keepingNormal(const polyMesh& mesh)
 {
     const polyBoundaryMesh& patches = mesh.boundaryMesh();
-    const pointBoundaryMesh& pointPatches = pointMesh::New(mesh).boundary();
+    const pointBoundaryMesh& pointPatches = foamCompat::pointMeshOf(mesh).boundary();
 
     // Ranks without a point of a patch cannot ask it
     boolList keeps(patches.nNonProcessor(), false);

@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "velocityDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "foamCompat.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -54,12 +55,12 @@ Foam::velocityDisplacement::velocityDisplacement
     if (dict.found("direction"))
     {
         direction_ = dict.get<vector>("direction");
-        speed_ = Function1<scalar>::New("value", dict);
+        speed_ = foamCompat::function1<scalar>("value", dict, mesh);
         functionType = speed_->type();
     }
     else
     {
-        velocity_ = Function1<vector>::New("value", dict);
+        velocity_ = foamCompat::function1<vector>("value", dict, mesh);
         functionType = velocity_->type();
     }
 
