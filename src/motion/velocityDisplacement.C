@@ -55,12 +55,12 @@ Foam::velocityDisplacement::velocityDisplacement
     if (dict.found("direction"))
     {
         direction_ = dict.get<vector>("direction");
-        speed_ = foamCompat::function1<scalar>("value", dict, mesh);
+        speed_ = foamCompat::function1<scalar>("value", dict, &mesh);
         functionType = speed_->type();
     }
     else
     {
-        velocity_ = foamCompat::function1<vector>("value", dict, mesh);
+        velocity_ = foamCompat::function1<vector>("value", dict, &mesh);
         functionType = velocity_->type();
     }
 
