@@ -265,7 +265,7 @@ void Foam::controlPointGroups::checkThatSomethingMoves
         FatalIOErrorInFunction(coeffs)
             << "Nothing moves the mesh: no patch or group prescribes a motion"
             << nl << others().c_str()
-            << "    Give a patch a moving condition in " << field
+            << "    Give a patch a moving condition in " << field.c_str()
             << ": fixedValue (a coupling may fill it)," << nl
             << "    uniformFixedValue, solidBodyMotionDisplacement,"
             << " oscillatingDisplacement, sixDoFRigidBodyDisplacement" << nl
@@ -316,14 +316,14 @@ void Foam::controlPointGroups::report(const bool moves) const
     if (moves && tells)
     {
         IOWarningInFunction(dict_)
-            << solver_ << " does not read what " << file
+            << solver_ << " does not read what " << file.c_str()
             << " has for other motion solvers:" << nl
             << left.c_str()
             << "    Remove it, or write what does the same here" << endl;
     }
     else if (moves && left.size())
     {
-        Info<< solver_ << " does not read what " << file
+        Info<< solver_ << " does not read what " << file.c_str()
             << " has for other motion solvers:" << nl << left.c_str() << flush;
     }
     if (moves)

@@ -181,7 +181,7 @@ Foam::string Foam::otherSolvers::bodies
 
         const wordRes patches(six->get<wordRes>("patches"));
         text<< "    A body that floats moves by the condition of its patch, in "
-            << field << ':' << nl << nl << patches[0] << nl;
+            << field.c_str() << ':' << nl << nl << patches[0].c_str();
         condition.write(text, true);
         if (patches.size() > 1)
         {
@@ -202,7 +202,8 @@ Foam::string Foam::otherSolvers::bodies
         const dictionary* list = joined->findDict("bodies");
         const wordList names(list ? list->toc() : wordList());
         text<< "    A body that floats moves by the condition"
-            << " sixDoFRigidBodyDisplacement of its patch in " << field << nl
+            << " sixDoFRigidBodyDisplacement of its patch in "
+            << field.c_str() << nl
             << "    (mass, centreOfMass, momentOfInertia; what a joint allows"
             << " is said by 'constraints': line, plane, point, axis,"
             << " orientation)." << nl

@@ -190,13 +190,17 @@ static string asGroups(const polyMesh& mesh, const othersField& field)
     }
 
     OStringStream text;
-    text<< "    " << mesh.time().relativePath(file.objectPath())
+    text<< "    "
+        << mesh.time().relativePath(file.objectPath()).c_str()
         << (field.velocity ? " prescribes velocities"
             : " prescribes one component of the displacement")
         << ", which another motion solver reads." << nl;
     const localIOdictionary read(file, field.className);
     const dictionary& conditions = read.subDict("boundaryField");
-    string groups;
+
+    // Where groups share a point the first has it: those that say where it
+    // goes, of these the last patch, as in OpenFOAM's fields
+    string groups, sliding;
     bool moves = false;
     for (label patchi = 0; patchi < mesh.boundaryMesh().nNonProcessor(); ++patchi)
     {
@@ -209,11 +213,18 @@ static string asGroups(const polyMesh& mesh, const othersField& field)
         }
         const string body(group(field, patch.name(), *condition));
         moves = moves || body.find("moving") != string::npos;
-        if (body.size())
+        const string line("    " + patch.name() + " { " + body + " }\n");
+        if (body.find("type sliding") == 0)
         {
-            groups += "    " + patch.name() + " { " + body + " }\n";
+            sliding += line;
+        }
+        else if (body.size())
+        {
+            groups = line + groups;
         }
     }
+    groups += sliding;
+
 
     text<< "    Write what it says into the coefficients:" << nl << nl
         << "controlPoints" << nl << '{' << nl << groups.c_str() << '}' << nl;

@@ -117,7 +117,6 @@ Foam::cellDisplacementField::cellDisplacementField
     points0_(points0),
     pointDisplacement_(pointDisplacement),
     written_(mesh.boundary().size(), false),
-    started_(false),
     warned_(false)
 {
     IOobject file(whereItIs(mesh));
@@ -126,6 +125,18 @@ Foam::cellDisplacementField::cellDisplacementField
         writeOpt() = IOobject::AUTO_WRITE;
     }
     forget();
+
+    // Of values from files those of the points count, which what was heard
+    // before a restart has become, unless they are zero
+    const label n = mesh.boundaryMesh().nNonProcessor();
+    for (label patchi = 0; patchi < n; ++patchi)
+    {
+        const scalar largest = gMax(mag(points_[patchi])());
+        if (!(largest > 0))
+        {
+            faces_[patchi] = Zero;
+        }
+    }
 }
 
 
@@ -269,10 +280,8 @@ void Foam::cellDisplacementField::hear()
         (
             points(patchi) != points_[patchi], orOp<bool>()
         );
-        if (!newFaces || (newPoints && !started_))
+        if (!newFaces)
         {
-            // Of values from files those of the points count, which what was
-            // heard before a restart has become
             continue;
         }
         written_[patchi] = true;
@@ -302,7 +311,6 @@ void Foam::cellDisplacementField::hear()
             warned_ = true;
         }
     }
-    started_ = true;
 }
 
 
@@ -362,8 +370,8 @@ void Foam::cellDisplacementField::forget()
     written_.setSize(n, false);
     forAll(faces_, patchi)
     {
-        faces_[patchi] = vectorField(faces(patchi).size(), Zero);
-        points_[patchi] = vectorField(points(patchi).size(), Zero);
+        faces_[patchi] = faces(patchi);
+        points_[patchi] = points(patchi);
     }
 }
 

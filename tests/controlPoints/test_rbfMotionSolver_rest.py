@@ -123,7 +123,7 @@ JOINTED = """rigidBodyMotionCoeffs { solver { type Newmark; } bodies
 
 @pytest.mark.parametrize("body, phrases", [
     (SIX_DOF, ["type            sixDoFRigidBodyDisplacement;", "zMax\n{",
-               "mass            15;", "value           uniform (0 0 0);"]),
+               "mass            15;", "value           uniform ( 0 0 0 );"]),
     (JOINTED, ["sixDoFRigidBodyDisplacement", "(hull propeller)",
                "keep the solver rigidBodyMotion"])])
 def test_a_body_of_another_solver_is_refused_with_the_condition_to_copy(
