@@ -14,6 +14,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "zeroGradientPointPatchField.H"
 
 #include <algorithm>
+#include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -98,6 +99,30 @@ Foam::vectorField Foam::cellDisplacementField::points(const label patchi) const
 }
 
 
+void Foam::cellDisplacementField::checkFinite(const label patchi) const
+{
+    bool finite = true;
+    for (const vector& d : faces(patchi))
+    {
+        for (const scalar component : d)
+        {
+            finite =
+                finite && std::isfinite(component)
+             && mag(component) < 1e-3*GREAT;
+        }
+    }
+    if (!returnReduce(finite, andOp<bool>()))
+    {
+        FatalErrorInFunction
+            << "Values of " << name() << " on patch '"
+            << mesh().boundary()[patchi].name()
+            << "' are not finite numbers of metres" << nl
+            << "    Look at what writes them: a coupling, or the file "
+            << objectPath() << nl << exit(FatalError);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::cellDisplacementField::cellDisplacementField
@@ -131,8 +156,13 @@ Foam::cellDisplacementField::cellDisplacementField
     const label n = mesh.boundaryMesh().nNonProcessor();
     for (label patchi = 0; patchi < n; ++patchi)
     {
-        const scalar largest = gMax(mag(points_[patchi])());
-        if (!(largest > 0))
+        // By comparison alone: it may be anything, and is judged later
+        bool told = false;
+        for (const vector& d : points_[patchi])
+        {
+            told = told || d != vector(Zero);
+        }
+        if (!returnReduce(told, orOp<bool>()))
         {
             faces_[patchi] = Zero;
         }
@@ -284,6 +314,7 @@ void Foam::cellDisplacementField::hear()
         {
             continue;
         }
+        checkFinite(patchi);
         written_[patchi] = true;
         faces_[patchi] = faces(patchi);
         writeOpt() = IOobject::AUTO_WRITE;

@@ -164,3 +164,15 @@ def test_values_of_faces_follow_the_points(tmp_path):
     assert "cellMotion" in top
     value = re.search(r"value +uniform \(0 0 (\S+)\)", top).group(1)
     assert float(value) == pytest.approx(0.1, abs=1e-15)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_values_that_are_none_are_an_error(tmp_path, ranks):
+    case = rbf_case(tmp_path, {**CONDITIONS, "zMax": "calculated"})
+    case.write("0/cellDisplacement", *volume_field({
+        **{name: "calculated; value uniform (0 0 0);" for name in CUBE},
+        "zMax": fixed(0, 0, 1e200)}))
+    if ranks > 1:
+        case.decompose((2, 1, 1))
+    output = case.run("moveDynamicMesh", ranks=ranks, status=1)
+    assert "'zMax'" in output and "not finite" in output
