@@ -84,7 +84,7 @@ def test_wmake_can_tell_all_files_apart():
 def test_every_source_is_compiled():
     # A folder with a Make of its own is a library of its own
     listed = {str((made.parents[1]/word).relative_to(ROOT))
-              for made in [ROOT/"Make/files", *ROOT.glob("src/*/Make/files")]
+              for made in [ROOT/"Make/files", *ROOT.glob("src/**/Make/files")]
               for word in made.read_text().split() if "." in word}
     files = {str(p.relative_to(ROOT)) for p in sources("src")
              if p.suffix in (".C", ".cpp")}
