@@ -386,7 +386,8 @@ int main()
 
     checkProducts<fvPatchField, volMesh>("volume ", mesh);
     checkProducts<fvsPatchField, surfaceMesh>("surface", mesh);
-    checkProducts<pointPatchField, pointMesh>("point  ", pointMesh::New(mesh));
+    const pointMesh meshPoints(mesh);
+    checkProducts<pointPatchField, pointMesh>("point  ", meshPoints);
 
     checkListProducts();
     checkTensorFunctions<tensor>("tensor");
