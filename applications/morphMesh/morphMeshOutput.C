@@ -147,7 +147,7 @@ static void writeDisplacement(const PtrList<motionSolver>& solvers)
                 const_cast<displacementMotionSolver*>(displacement)
               ->pointDisplacement();
 
-            IOobject io(field);
+            IOobject io(field, field.name());
             const bool found = io.typeHeaderOk<pointVectorField>(true);
 
             // One that the solver made up itself is no input of the case

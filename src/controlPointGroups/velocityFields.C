@@ -183,7 +183,7 @@ static string asGroups(const polyMesh& mesh, const othersField& field)
         IOobject::NO_WRITE,
         false
     );
-    IOobject header(file);
+    IOobject header(file, file.name());
     if (!returnReduce(header.typeHeaderOk<localIOdictionary>(false), orOp<bool>()))
     {
         return string::null;

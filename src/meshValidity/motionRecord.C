@@ -110,8 +110,7 @@ void Foam::motionRecord::writeReport() const
         mkDir(path);
         OFstream os(path/"motion");
         os.precision(17);
-        IOobject header(*this);
-        header.rename("motion");
+        IOobject header(*this, "motion");
         header.writeHeader(os, dictionary::typeName);
         dictionary::write(os, false);
         IOobject::writeEndDivider(os);
