@@ -165,3 +165,25 @@ def test_blas_is_looked_for_with_the_compiler_of_wmake(
         machine, source_tree, compiler, found):
     said, _ = build(source_tree, machine, CXX_OF_WMAKE=compiler)
     assert ("without OpenBLAS" not in said) == found
+
+
+def test_lists_of_headers_that_are_gone_are_made_anew(machine, source_tree):
+    """make stops at them. A header's path is relative to the folder of Make, or
+    absolute; one of OpenFOAM's begins with a variable."""
+    root = source_tree
+    build(root, machine)
+    (root/"lnInclude").mkdir()
+    (root/"lnInclude/here.H").touch()
+    (root/"lnInclude/moved.H").symlink_to("nowhere.H")
+    lists = {"here": "lnInclude/here.H", "gone": "src/foam/gone.hpp",
+             "moved": "lnInclude/moved.H", "openFOAM": "$(WM_PROJECT_DIR)/a.H",
+             "absolute": f"{root}/lnInclude/gone.H",
+             "there": f"{root}/lnInclude/here.H"}
+    objects = root/"Make"/machine["WM_OPTIONS"]/"src/foam"
+    objects.mkdir(parents=True)
+    for name, header in lists.items():
+        (objects/f"{name}.C.dep").write_text(
+            f"$(OBJECTS_DIR)/{name}.C.dep: \\\nAllwmake \\\n{header} \\\n\n")
+    build(root, machine)
+    assert sorted(path.name for path in objects.glob("*.dep")) == [
+        "here.C.dep", "openFOAM.C.dep", "there.C.dep"]
