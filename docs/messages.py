@@ -17,6 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 SUBJECTS = {
     "controlPointGroups": "Groups of control points",
     "motion": "Prescribed displacements",
+    "bodies": "Rigid bodies in the flow",
     "controlPoints": "Control points",
     "sliding": "Sliding surfaces",
     "rbfMotionSolver": "rbfMotionSolver",

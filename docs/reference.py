@@ -36,6 +36,8 @@ DICTIONARIES = [
     ("displacement: file", "fileDisplacement",
      ["fileDisplacement", "tabulatedDisplacement"]),
     ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
+    ("displacement: sixDoFRigidBody", "sixDoFRigidBodyDisplacement",
+     ["sixDoFRigidBodyDisplacement", "sixDoFRigidBody"]),
     ("ffdMotionSolverCoeffs", "ffdMotionSolver",
      ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"]),
     ("A box of boxes", "ffdBox",
@@ -83,6 +85,7 @@ READ_BY_OPENFOAM = {
 
 # Likewise single entries, as (source, entry)
 NOT_AN_ENTRY = {
+    ("sixDoFRigidBody", "deltaT"): "in the file that a restart reads",
     ("controlPointGroup", "n"): "written by OpenFOAM's own condition",
     ("ffdFit", "boxes"): "the boxes of the dictionary",
     ("ffdFit", "origin"): "an entry of the box",

@@ -472,6 +472,15 @@ bool Foam::controlPointGroup::fromField() const
 }
 
 
+void Foam::controlPointGroup::update()
+{
+    if (displacement_.valid())
+    {
+        displacement_->update();
+    }
+}
+
+
 Foam::labelHashSet Foam::controlPointGroup::meshPoints() const
 {
     labelHashSet selected;

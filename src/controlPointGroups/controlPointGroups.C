@@ -349,4 +349,13 @@ void Foam::controlPointGroups::report(const bool moves) const
 }
 
 
+void Foam::controlPointGroups::update()
+{
+    for (controlPointGroup& group : *this)
+    {
+        group.update();
+    }
+}
+
+
 // ************************************************************************* //

@@ -172,6 +172,7 @@ void Foam::rbfMotionSolver::prepare()
     {
         cellDisplacement_->hear();
     }
+    groups_->update();
     if (groups_->fromField())
     {
         pointDisplacement_.boundaryFieldRef().updateCoeffs();
