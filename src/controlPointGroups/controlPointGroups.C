@@ -251,13 +251,13 @@ void Foam::controlPointGroups::checkThatSomethingMoves
     (
         mesh_.time().relativePath(pointDisplacement_.objectPath())
     );
-    const string bodies(otherSolvers::bodies(dict_, field));
+    const string bodies(otherSolvers::bodies(dict_));
     if (bodies.size())
     {
         FatalIOErrorInFunction(dict_)
             << "Nothing moves the mesh: " << solver_ << " does not move the"
             << " body of this dictionary by itself" << nl
-            << "    Let its patch move:" << nl << bodies.c_str() << nl
+            << "    Let a group move it:" << nl << bodies.c_str() << nl
             << exit(FatalIOError);
     }
     if (!may)
@@ -268,9 +268,10 @@ void Foam::controlPointGroups::checkThatSomethingMoves
             << "    Give a patch a moving condition in " << field.c_str()
             << ": fixedValue (a coupling may fill it)," << nl
             << "    uniformFixedValue, solidBodyMotionDisplacement,"
-            << " oscillatingDisplacement, sixDoFRigidBodyDisplacement" << nl
-            << "    (a body that floats), ...; or add a group of type moving to"
-            << " 'controlPoints'" << nl << exit(FatalIOError);
+            << " oscillatingDisplacement, ...;" << nl
+            << "    or add a group of type moving to 'controlPoints', with"
+            << " displacement { type sixDoFRigidBody; ... }" << nl
+            << "    if it is a body that floats" << nl << exit(FatalIOError);
     }
 }
 

@@ -6,7 +6,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "otherSolvers.H"
 #include "plainText.H"
 #include "HashSet.H"
-#include "wordRes.H"
 #include "StringStream.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -27,8 +26,8 @@ static string counterpart(const word& name)
     if (has("sixDoF") || has("rigidBody"))
     {
         return
-            "a body moves by the condition sixDoFRigidBodyDisplacement of its"
-            " patch";
+            "a body is a group of 'controlPoints' with displacement"
+            " { type sixDoFRigidBody; ... }";
     }
     if (has("olidBody"))
     {
@@ -99,7 +98,8 @@ static bool bodysOwn(const entry& e)
     static const HashSet<word> others
     ({
         "FoamFile", "dynamicFvMesh", "innerDistance", "motionSolver",
-        "motionSolverLibs", "outerDistance", "patches"
+        "motionSolverLibs", "outerDistance", "patches", "updateControl",
+        "updateInterval"
     });
     return !others.found(e.keyword()) && (e.keyword() != "solver" || e.isDict());
 }
@@ -156,39 +156,31 @@ Foam::string Foam::otherSolvers::leftovers
 }
 
 
-Foam::string Foam::otherSolvers::bodies
-(
-    const dictionary& dict,
-    const fileName& field
-)
+Foam::string Foam::otherSolvers::bodies(const dictionary& dict)
 {
     OStringStream text;
     const dictionary* six =
         coefficients(dict, "sixDoFRigidBodyMotion", "momentOfInertia");
     if (six)
     {
-        dictionary condition;
-        condition.add("type", "sixDoFRigidBodyDisplacement");
+        dictionary displacement;
+        displacement.add("type", "sixDoFRigidBody");
         for (const entry& e : *six)
         {
             if (bodysOwn(e))
             {
-                condition.add(e);
+                displacement.add(e);
             }
         }
-        IStringStream zero("value uniform (0 0 0);");
-        condition.merge(dictionary(zero));
+        dictionary group;
+        group.add("type", "moving");
+        group.add(*six->findEntry("patches"));
+        group.add("displacement", displacement);
 
-        const wordRes patches(six->get<wordRes>("patches"));
-        text<< "    A body that floats moves by the condition of its patch, in "
-            << field.c_str() << ':' << nl << nl << patches[0].c_str();
-        condition.write(text, true);
-        if (patches.size() > 1)
-        {
-            text<< nl << "    The condition knows the forces on one patch: make"
-                << " one of " << plainText::listed(patches).c_str()
-                << " (createPatch)";
-        }
+        text<< "    A body that floats is a group of 'controlPoints':" << nl
+            << nl << "body";
+        group.write(text, true);
+        text<< nl << "    The patches that stay are a group of type fixed there";
         return text.str();
     }
 
@@ -201,16 +193,15 @@ Foam::string Foam::otherSolvers::bodies
     {
         const dictionary* list = joined->findDict("bodies");
         const wordList names(list ? list->toc() : wordList());
-        text<< "    A body that floats moves by the condition"
-            << " sixDoFRigidBodyDisplacement of its patch in "
-            << field.c_str() << nl
+        text<< "    A body that floats is a group of 'controlPoints' with"
+            << " displacement { type sixDoFRigidBody; ... }" << nl
             << "    (mass, centreOfMass, momentOfInertia; what a joint allows"
             << " is said by 'constraints': line, plane, point, axis,"
             << " orientation)." << nl
             << "    Bodies: " << plainText::listed(names).c_str() << '.';
         if (names.size() > 1)
         {
-            text<< " Bodies joined to each other have no such condition: keep"
+            text<< " Bodies joined to each other have no such type: keep"
                 << " the solver rigidBodyMotion for them";
         }
         return text.str();

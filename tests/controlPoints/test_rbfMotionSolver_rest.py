@@ -62,7 +62,7 @@ def test_where_nothing_can_move_it_is_an_error_as_before(tmp_path):
     output = case.run("moveDynamicMesh", status=1)
     assert case.tree() == before
     for phrase in (REST, "no patch or group prescribes a motion",
-                   "sixDoFRigidBodyDisplacement", "type moving"):
+                   "type sixDoFRigidBody", "type moving"):
         assert phrase in output
 
 
@@ -122,11 +122,12 @@ JOINTED = """rigidBodyMotionCoeffs { solver { type Newmark; } bodies
 
 
 @pytest.mark.parametrize("body, phrases", [
-    (SIX_DOF, ["type            sixDoFRigidBodyDisplacement;", "zMax\n{",
-               "mass            15;", "value           uniform ( 0 0 0 );"]),
-    (JOINTED, ["sixDoFRigidBodyDisplacement", "(hull propeller)",
+    (SIX_DOF, ["type            sixDoFRigidBody;", "body\n{",
+               "patches         ( zMax );",
+               "mass            15;"]),
+    (JOINTED, ["type sixDoFRigidBody", "(hull propeller)",
                "keep the solver rigidBodyMotion"])])
-def test_a_body_of_another_solver_is_refused_with_the_condition_to_copy(
+def test_a_body_of_another_solver_is_refused_with_the_group_to_copy(
         tmp_path, body, phrases):
     case = rbf_case(tmp_path, {**SLIPPING, "zMax": "calculated"}, extra=body)
     output = case.run("moveDynamicMesh", status=1)
