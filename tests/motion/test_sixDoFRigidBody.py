@@ -18,7 +18,7 @@ import shutil
 import numpy as np
 import pytest
 
-from rbfCase import groups, move, points_at, rbf_case, reference, side
+from rbfCase import groups, points_at, rbf_case, reference, side
 from boxCase import write_control
 
 DT = 0.1
