@@ -121,6 +121,8 @@ def entries_read(text):
     # Lists of names
     lists = re.findall(r"(?:onlyKeys\s*\([^{;]*|wordList(?: \w+)?\s*\(\s*|"
                        r"return )\{([^{};]*)\}", text)
+    for call in re.findall(r"(?:onlyKeys|checkValues)\s*\(([^;]*);", text):
+        lists += re.findall(r"\{([^{};]*)\}", call)
     lists += re.findall(r"keys\.append\((\"\w+\")\)", text)
     lists += re.findall(r"const char\* key :\s*\{([^{}]*)\}", text)
     for one in lists:

@@ -100,13 +100,18 @@ Usage
 #include "Time.H"
 #include "fvMesh.H"
 #include "clockTime.H"
+#include "meshFiles.H"
 #include "morphMeshControls.H"
 #include "morphMeshInput.H"
 #include "morphMeshOutput.H"
 #include "morphVersion.H"
 #include "motionLimiter.H"
 #include "motionRecord.H"
+#include "throwing.H"
 #include "validFraction.H"
+
+#include <csignal>
+#include <new>
 
 using namespace Foam;
 
@@ -158,12 +163,8 @@ static void reportInvalid
 }
 
 
-int main(int argc, char *argv[])
+static void addOptions()
 {
-    if (morphVersion::asked(argc, argv))
-    {
-        return 0;
-    }
     argList::addNote
     (
         "Apply the motion solver of dynamicMeshDict once, check the moved mesh"
@@ -213,7 +214,12 @@ int main(int argc, char *argv[])
         "Write dx/dmu of the whole mesh for each parameter, as fields"
     );
     #include "addRegionOption.H"
-    #include "setRootCase.H"
+}
+
+
+//- Whether the moved mesh is valid
+static bool morph(const argList& args)
+{
     #include "createTime.H"
 
     const bool overwrite = args.found("overwrite");
@@ -228,16 +234,8 @@ int main(int argc, char *argv[])
 
     Info<< "Moving mesh " << regionName << " at time " << runTime.timeName()
         << nl << endl;
-    fvMesh mesh
-    (
-        IOobject
-        (
-            regionName,
-            runTime.timeName(),
-            runTime,
-            IOobject::MUST_READ
-        )
-    );
+    const autoPtr<fvMesh> meshPtr(meshFiles::read(runTime, regionName));
+    const fvMesh& mesh = meshPtr();
     const scalar readTime = clock.timeIncrement();
 
     motionRecord record(mesh, morphMeshOutput::folder(mesh), !dryRun);
@@ -322,14 +320,52 @@ int main(int argc, char *argv[])
         << nl << nl << (after.valid() ? "End" : motionLimiter::failed) << nl
         << endl;
 
-    if (!after.valid())
+    return after.valid();
+}
+
+
+int main(int argc, char *argv[])
+{
+    // A limit on the size of files is an error, as a full disk is; and where
+    // memory ends OpenFOAM would abort
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::set_new_handler(nullptr);
+
+    if (morphVersion::asked(argc, argv))
+    {
+        return 0;
+    }
+    addOptions();
+    #include "setRootCase.H"
+
+    bool valid = false;
+    try
+    {
+        const throwing errors;
+        valid = morph(args);
+    }
+    catch (const Foam::error& wrong)
+    {
+        // OpenFOAM aborts after some errors: all end like this
+        report(wrong);
+        Pstream::exit(1);
+    }
+    catch (const std::exception& wrong)
+    {
+        FatalErrorInFunction
+            << "morphMesh stops: " << wrong.what() << nl
+            << "    A file of the case asks for more memory than there is, or"
+            << " has contents of another kind; the last line above says which"
+            << " was being read" << nl << exit(FatalError);
+    }
+
+    if (!valid)
     {
         // Not by return: the end of argList ends the program with status 0.
         // The reduction lets the master finish what it has to say
         returnReduce(true, andOp<bool>());
         Pstream::exit(1);
     }
-
     return 0;
 }
 

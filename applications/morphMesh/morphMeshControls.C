@@ -14,11 +14,11 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "fvMesh.H"
 #include "motionSensitivities.H"
-#include "OFstream.H"
 #include "OSspecific.H"
 #include "plainText.H"
 #include "pointFields.H"
 #include "shapeConstraints.H"
+#include "wholeFile.H"
 
 #include <limits>
 
@@ -188,15 +188,26 @@ void Foam::morphMeshControls::writeDerivatives
         Info<< nl;
         measures.writeDerivatives(Info);
 
-        mkDir(folder);
         if (Pstream::master())
         {
-            OFstream os(folder/"derivatives.dat");
-            os.precision(std::numeric_limits<scalar>::max_digits10);
-            measures.writeDerivatives(os);
-            OFstream shape(folder/"measures.dat");
-            shape.precision(std::numeric_limits<scalar>::max_digits10);
-            measures.writeMeasures(shape);
+            wholeFile::writeOrStop
+            (
+                folder/"derivatives.dat",
+                [&](Ostream& os)
+                {
+                    os.precision(std::numeric_limits<scalar>::max_digits10);
+                    measures.writeDerivatives(os);
+                }
+            );
+            wholeFile::writeOrStop
+            (
+                folder/"measures.dat",
+                [&](Ostream& os)
+                {
+                    os.precision(std::numeric_limits<scalar>::max_digits10);
+                    measures.writeMeasures(os);
+                }
+            );
         }
         ffdPreview::writeDerivatives
         (

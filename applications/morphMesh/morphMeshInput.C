@@ -5,10 +5,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "morphMeshInput.H"
 #include "argList.H"
+#include "dictionaryChecks.H"
 #include "faceIOList.H"
+#include "finiteNumbers.H"
 #include "fvMesh.H"
 #include "plainText.H"
 #include "Time.H"
+#include "untrapped.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -33,6 +36,7 @@ static wordList timeNames(const Time& runTime)
 //- The dictionary as it is, not yet that of a motion solver
 static IOdictionary readDynamicMeshDict(const fvMesh& mesh)
 {
+    const untrapped numbers;
     IOobject io
     (
         "dynamicMeshDict",
@@ -110,8 +114,9 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
         return;
     }
 
+    const untrapped numbers;
     scalar value;
-    if (!readScalar(name, value))
+    if (!readScalar(name, value) || !finiteNumbers::usable(value))
     {
         FatalErrorInFunction
             << "The option -time is '" << name << "', which is no number."
@@ -164,8 +169,8 @@ void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionNa
         FatalErrorInFunction
             << "There is no mesh in " << runTime.constant()/meshDir
             << " of case " << runTime.caseName()
-            << ": nothing to move. Make the mesh, or give the region"
-            << " (-region), the case (-case) or, for a decomposed case,"
+            << ": no file faces that can be read, nothing to move. Make the"
+            << " mesh, or give the region (-region), the case (-case) or, for a decomposed case,"
             << " -parallel" << exit(FatalError);
     }
 }
@@ -174,6 +179,12 @@ void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionNa
 void Foam::morphMeshInput::readSolvers(const fvMesh& mesh, PtrList<motionSolver>& solvers)
 {
     const IOdictionary dict(readDynamicMeshDict(mesh));
+    dictionaryChecks::restoreNames(dict, dict.objectPath());
+    dictionaryChecks::checkNumbers(dict);
+    dictionaryChecks::checkValues(dict, {"motionSolver", "motionSolverLibs"});
+
+    // Solvers read the dictionary again, its header as well
+    const untrapped numbers;
 
     if (dict.isDict("solvers"))
     {

@@ -6,9 +6,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "morphMeshOutput.H"
 #include "displacementMotionSolver.H"
 #include "fvMesh.H"
-#include "OFstream.H"
-#include "OSspecific.H"
 #include "pointIOField.H"
+#include "referencePoints.H"
+#include "wholeFile.H"
 
 #include <limits>
 
@@ -19,14 +19,7 @@ namespace Foam
 
 static void write(const regIOobject& object)
 {
-    const bool written = object.write();
-    if (!returnReduce(written, andOp<bool>()))
-    {
-        FatalErrorInFunction
-            << "Could not write " << object.objectPath()
-            << ": is the disk full, or the folder read-only?"
-            << exit(FatalError);
-    }
+    wholeFile::writeObject(object);
     Info<< "Wrote "
         << (object.instance()/object.db().dbDir()/object.local()/object.name())
             .c_str()
@@ -62,6 +55,7 @@ static pointIOField pointsFile
 static void keepReference(const fvMesh& mesh)
 {
     const fileName& constant = mesh.time().constant();
+    referencePoints::checkFile(mesh, constant);
 
     IOobject io
     (
@@ -172,11 +166,7 @@ static void writeTable
     const fileName file(morphMeshOutput::folder(mesh)/name);
     if (Pstream::master())
     {
-        const fileName path(mesh.time().globalPath()/file);
-        mkDir(path.path());
-
-        OFstream os(path);
-        table(os);
+        wholeFile::writeOrStop(mesh.time().globalPath()/file, table);
     }
     Info<< "Wrote " << file.c_str() << endl;
 }

@@ -62,16 +62,20 @@ Usage
 #include "ffdFit.H"
 #include "ffdMeasures.H"
 #include "ffdPreview.H"
+#include "finiteNumbers.H"
 #include "IFstream.H"
 #include "morphVersion.H"
-#include "OFstream.H"
 #include "OSspecific.H"
 #include "shapeConstraints.H"
-#include "triSurface.H"
+#include "surfaceFile.H"
+#include "throwing.H"
+#include "untrapped.H"
+#include "wholeFile.H"
 
-#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
+#include <new>
 
 using namespace Foam;
 
@@ -92,6 +96,7 @@ static void checkReadable(const fileName& file, const string& what)
 static dictionary readBoxes(const fileName& file)
 {
     checkReadable(file, "dictionary (-dict)");
+    const untrapped numbers;
     IFstream is(file);
     const dictionary dict(is);
     if (!dict.found("boxes") && !dict.isDict("ffdMotionSolverCoeffs"))
@@ -105,100 +110,51 @@ static dictionary readBoxes(const fileName& file)
 }
 
 
-//- The option -time. OpenFOAM's own reading compares what is not a number,
-//  which is trapped
+//- The time of the parameters
 static scalar readTime(const argList& args)
 {
-    if (!args.found("time"))
-    {
-        return 0;
-    }
-    const string& given = args["time"];
-    char* end = nullptr;
-    const double time = std::strtod(given.c_str(), &end);
-    if (end == given.c_str() || *end || !std::isfinite(time))
+    const untrapped numbers;
+    const string given(args.getOrDefault<string>("time", "0"));
+    scalar time;
+    if (!readScalar(given, time) || !finiteNumbers::usable(time))
     {
         FatalErrorInFunction
-            << "Option -time is " << given.c_str() << nl
-            << "    Give a number" << nl << exit(FatalError);
+            << "The option -time is '" << given.c_str() << "', which is no"
+            << " time" << nl
+            << "    Give a number of seconds, for example -time 0" << nl
+            << exit(FatalError);
     }
     return time;
 }
 
 
-//- A surface that has triangles, with finite points
-static triSurface readSurface(const fileName& file)
+static autoPtr<triSurface> readSurface(const fileName& input)
 {
-    triSurface surface(file);
-    if (surface.empty())
+    checkReadable(input, "surface");
+    string wrong;
+    autoPtr<triSurface> surface(surfaceFile::read(input, wrong));
+    if (!wrong.empty())
     {
         FatalErrorInFunction
-            << "The surface " << file << " is empty: it has no triangle" << nl
-            << "    Give one that has" << nl << exit(FatalError);
-    }
-    for (const labelledTri& t : surface)
-    {
-        for (const label pointi : t)
-        {
-            const bool good =
-                pointi >= 0 && pointi < surface.points().size()
-             && cmptMax(cmptMag(surface.points()[pointi])) < 1e60;
-            if (!good)
-            {
-                FatalErrorInFunction
-                    << "The surface " << file << " has the triangle " << t
-                    << ", whose points are not there or beyond all measure"
-                    << nl << "    It has " << surface.points().size()
-                    << " points. Repair it" << nl << exit(FatalError);
-            }
-        }
+            << "The surface cannot be used: " << wrong.c_str() << nl
+            << "    Repair the file" << nl << exit(FatalError);
     }
     return surface;
 }
 
 
-//- Write so that the file is whole or the former one
-static void writeSurface(const triSurface& surface, const fileName& file)
+static void writeSurface(const fileName& output, const triSurface& surface)
 {
-    if (file.hasPath())
-    {
-        mkDir(file.path());
-    }
-    const fileName beside
-    (
-        (file.hasPath() ? file.path()/"." : fileName(".")) + "writing."
-      + file.name()
-    );
+    // Of a shape that was calculated all digits
     const unsigned int digits = IOstream::defaultPrecision();
-    IOstream::defaultPrecision
-    (
-        std::numeric_limits<scalar>::max_digits10
-    );
-    surface.write(beside, true);
+    IOstream::defaultPrecision(std::numeric_limits<scalar>::max_digits10);
+    const string wrong(surfaceFile::write(output, surface));
     IOstream::defaultPrecision(digits);
-
-    // Streams are closed by now and tell nothing: what is there is
-    const bool threw = FatalError.throwExceptions();
-    const bool threwIO = FatalIOError.throwExceptions();
-    bool whole = false;
-    try
+    if (!wrong.empty())
     {
-        const triSurface back(beside);
-        whole = back.size() == surface.size();
+        FatalErrorInFunction << wrong.c_str() << nl << exit(FatalError);
     }
-    catch (const Foam::error&)
-    {}
-    FatalError.throwExceptions(threw);
-    FatalIOError.throwExceptions(threwIO);
-    if (!whole || !mv(beside, file))
-    {
-        rm(beside);
-        FatalErrorInFunction
-            << "The surface could not be written to " << file << nl
-            << "    Is the disk full, or may you not write there?" << nl
-            << exit(FatalError);
-    }
-    Info<< nl << "Wrote " << file.c_str() << endl;
+    Info<< nl << "Wrote " << output.c_str() << endl;
 }
 
 
@@ -288,12 +244,8 @@ static faceList facesOf(const triSurface& surface, const dictionary& dict)
 }
 
 
-int main(int argc, char *argv[])
+static void addOptions()
 {
-    if (morphVersion::asked(argc, argv))
-    {
-        return 0;
-    }
     argList::addNote
     (
         "Apply the boxes of ffdMotionSolver to a surface file"
@@ -331,11 +283,13 @@ int main(int argc, char *argv[])
         "preview",
         "Like -lattice, and draw each parameter at its bounds in one picture"
     );
+}
 
-    const argList args(argc, argv);
+
+static void deform(const argList& args)
+{
     const fileName input(args[1]);
     const fileName output(args[2]);
-    checkReadable(input, "surface");
     if (!triSurface::canWriteType(output.ext()))
     {
         FatalErrorInFunction
@@ -349,7 +303,8 @@ int main(int argc, char *argv[])
             << exit(FatalError);
     }
 
-    triSurface surface(readSurface(input));
+    autoPtr<triSurface> read(readSurface(input));
+    triSurface& surface = read();
     const pointField points(surface.points());
     const dictionary dict
     (
@@ -370,15 +325,22 @@ int main(int argc, char *argv[])
     measures.writeMeasures(Info);
 
     surface.movePoints(moved);
-    writeSurface(surface, output);
+    writeSurface(output, surface);
 
     if (args.found("derivatives"))
     {
-        OFstream os(output.lessExt() + ".derivatives.dat");
-        os.precision(std::numeric_limits<scalar>::max_digits10);
-        measures.writeDerivatives(os);
+        const fileName path(output.lessExt() + ".derivatives.dat");
+        wholeFile::writeOrStop
+        (
+            path,
+            [&](Ostream& os)
+            {
+                os.precision(std::numeric_limits<scalar>::max_digits10);
+                measures.writeDerivatives(os);
+            }
+        );
         measures.writeDerivatives(Info);
-        Info<< "Wrote " << os.name().c_str() << endl;
+        Info<< "Wrote " << path.c_str() << endl;
     }
     if (args.found("constraints"))
     {
@@ -407,6 +369,41 @@ int main(int argc, char *argv[])
     }
 
     Info<< nl << "End" << nl << endl;
+}
+
+
+int main(int argc, char *argv[])
+{
+    if (morphVersion::asked(argc, argv))
+    {
+        return 0;
+    }
+
+    // A limit on the size of files is an error, as a full disk is; and where
+    // memory ends OpenFOAM would abort
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::set_new_handler(nullptr);
+
+    addOptions();
+    const argList args(argc, argv);
+    try
+    {
+        const throwing errors;
+        deform(args);
+    }
+    catch (const Foam::error& wrong)
+    {
+        // OpenFOAM aborts after some errors: all end like this
+        report(wrong);
+        std::exit(1);
+    }
+    catch (const std::exception& wrong)
+    {
+        FatalErrorInFunction
+            << "morphSurface stops: " << wrong.what() << nl
+            << "    The surface or the dictionary asks for more memory than"
+            << " there is" << nl << exit(FatalError);
+    }
     return 0;
 }
 

@@ -7,9 +7,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "ListListOps.H"
 #include "motionSolver.H"
-#include "OFstream.H"
-#include "OSspecific.H"
 #include "Pstream.H"
+#include "wholeFile.H"
 
 #include <limits>
 
@@ -79,7 +78,7 @@ static controlShape gatheredShape(const controlShape& shape)
 }
 
 
-static void writeCells(OSstream& os, const controlShape& shape)
+static void writeCells(Ostream& os, const controlShape& shape)
 {
     if (shape.lines.empty())
     {
@@ -110,13 +109,13 @@ static void writeCells(OSstream& os, const controlShape& shape)
 }
 
 
-static void writeVector(OSstream& os, const vector& v)
+static void writeVector(Ostream& os, const vector& v)
 {
     os  << v.x() << ' ' << v.y() << ' ' << v.z() << nl;
 }
 
 
-static void writeShape(OSstream& os, const controlShape& shape)
+static void writeShape(Ostream& os, const controlShape& shape)
 {
     os  << "# vtk DataFile Version 2.0" << nl
         << shape.name.c_str() << nl
@@ -195,10 +194,15 @@ void Foam::controlGeometry::write
         const controlShape shape(gatheredShape(mine));
         if (Pstream::master())
         {
-            mkDir(folder);
-            OFstream os(folder/(shape.name + ".vtk"));
-            os.precision(std::numeric_limits<scalar>::max_digits10);
-            writeShape(os, shape);
+            wholeFile::writeOrStop
+            (
+                folder/(shape.name + ".vtk"),
+                [&](Ostream& os)
+                {
+                    os.precision(std::numeric_limits<scalar>::max_digits10);
+                    writeShape(os, shape);
+                }
+            );
         }
     }
 }

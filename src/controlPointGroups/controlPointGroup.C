@@ -9,14 +9,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "pointDisplacementField.H"
 #include "emptyPolyPatch.H"
+#include "finiteNumbers.H"
 #include "processorPolyPatch.H"
 #include "wedgePolyPatch.H"
 #include "fixedNormalSlipPointPatchField.H"
 #include "fixedValuePointPatchFields.H"
 #include "pointFields.H"
 #include "StringStream.H"
-
-#include <cmath>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,18 +41,6 @@ Foam::controlPointGroup::surfaceNames
 namespace Foam
 {
 
-// Numbers that can be squared; told without arithmetic, which others trap
-static bool reasonable(const vector& d)
-{
-    for (const scalar component : d)
-    {
-        if (!std::isfinite(component) || mag(component) > 1e-3*GREAT)
-        {
-            return false;
-        }
-    }
-    return true;
-}
 
 } // End namespace Foam
 
@@ -80,9 +67,9 @@ Foam::controlPointGroup::controlPointGroup
     (
         dict,
         {
-            "type", "patches", "faceZones", "pointZones", "points",
-            "displacement", "surface", "target"
-        }
+            "type", "patches", "faceZones", "pointZones", "points"
+        },
+        {"displacement", "surface", "target"}
     );
 
     const wordList constrained
@@ -103,9 +90,10 @@ Foam::controlPointGroup::controlPointGroup
     }
     if (dict.found("points"))
     {
-        listed_ = dict.get<pointField>("points");
+        listed_ = dictionaryChecks::getLengths<pointField>(dict, "points");
     }
     checkSelection(constrained);
+    checkZones();
     checkSurface();
     checkConstraints();
     checkDisplacement();
@@ -266,6 +254,37 @@ void Foam::controlPointGroup::checkConstraints() const
                 << "constant/polyMesh/boundary" << nl << exit(FatalIOError);
         }
     }
+}
+
+
+void Foam::controlPointGroup::checkZones() const
+{
+    string message;
+    const auto check = [&](const zone& z, const label n, const char* file)
+    {
+        for (const label i : z)
+        {
+            if ((i < 0 || i >= n) && message.empty())
+            {
+                message =
+                    "Group '" + name_ + "': zone '" + z.name() + "' of "
+                  + mesh_.facesInstance()/polyMesh::meshSubDir/file
+                  + " has the label " + Foam::name(i) + ", but there are "
+                  + Foam::name(n)
+                  + "\n    The file is that of another mesh: make the zone"
+                    " again";
+            }
+        }
+    };
+    for (const label zonei : faceZones_)
+    {
+        check(mesh_.faceZones()[zonei], mesh_.nFaces(), "faceZones");
+    }
+    for (const label zonei : pointZones_)
+    {
+        check(mesh_.pointZones()[zonei], mesh_.nPoints(), "pointZones");
+    }
+    dictionaryChecks::stopIf(dict_, message);
 }
 
 
@@ -551,7 +570,7 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
     OStringStream message;
     for (label i = 0; i < d.size() && message.str().empty(); ++i)
     {
-        if (!reasonable(d[i]))
+        if (!finiteNumbers::usable(d[i]))
         {
             message
                 << "Group '" << name_ << "': the prescribed displacement at "

@@ -114,7 +114,18 @@ Foam::motionImages::motionImages
         disable(settings_.refusal);
         return;
     }
-    touching_ = within(found_.touch());
+    try
+    {
+        touching_ = within(found_.touch());
+    }
+    catch (const morph::TooManyImages& tooMany)
+    {
+        disable
+        (
+            "more than " + name(label(tooMany.most)) + " of them are within"
+            " reach: the mesh is too thin between its periodic sides"
+        );
+    }
 }
 
 

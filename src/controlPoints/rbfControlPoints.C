@@ -16,6 +16,11 @@ namespace Foam
 // In units of the mesh's size: what corners may be off their surfaces
 static const scalar cornerTolerance = 1e-6;
 
+// In units of the largest displacement, what control points at one place may
+// differ by: what a selection leaves by default. The two sides of a baffle are
+// told by a coupling, which maps to each
+static const scalar sameDisplacement = 1e-5;
+
 } // End namespace Foam
 
 
@@ -220,7 +225,10 @@ void Foam::rbfControlPoints::mergeDuplicates
         std::vector<morph::Index> kept;
         try
         {
-            kept = morph::withoutDuplicates(c.whole, 1e-8*largest);
+            kept = morph::withoutDuplicates
+            (
+                c.whole, sameDisplacement*largest
+            );
         }
         catch (const morph::ConflictingControlPoints& conflict)
         {

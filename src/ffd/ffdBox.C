@@ -520,9 +520,19 @@ void Foam::ffdBox::checkFold() const
     (
         *settings_.frame, *settings_.lattice, control_
     );
-    if (certificate.valid())
+    try
     {
-        return;
+        if (certificate.valid())
+        {
+            return;
+        }
+    }
+    catch (const std::length_error& wrong)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Box '" << name_ << "', entry 'order': " << wrong.what() << nl
+            << "    Use 'basis bSpline' with 'degree (3 3 3)', or a lower order"
+            << nl << exit(FatalIOError);
     }
     const Vector3 where = certificate.where();
     const scalar safe = certificate.safeScale();

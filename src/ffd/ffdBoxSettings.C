@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "ffdFrames.H"
 #include "ffdLatticeFile.H"
+#include "ListOps.H"
 #include "splineFrame.hpp"
 #include "Tuple2.H"
 
@@ -51,19 +52,25 @@ namespace Foam
 // The entries of all boxes; those of its frame are added
 static void checkKeys(const dictionary& dict)
 {
+    const wordList always
+    ({
+        "type", "order", "basis", "form", "units", "continuity", "weights"
+    });
+    dictionaryChecks::checkValues(dict, always);
     wordList keys(ffdFrames::keys(dict));
-    keys.append
-    (
-        wordList
-        ({
-            "type", "order", "basis", "form", "units", "continuity", "weights",
-            "parameters", "bulk", "axis", "parent"
-        })
-    );
+    keys.append(always);
     if (dict.getOrDefault<word>("basis", "bernstein") == "bSpline")
     {
         keys.append("degree");
     }
+    wordList values(keys);
+    inplaceSubsetList
+    (
+        values,
+        [](const word& key) { return key != "rotation" && key != "axis"; }
+    );
+    dictionaryChecks::checkValues(dict, values);
+    keys.append(wordList({"parameters", "bulk", "axis", "parent"}));
     dictionaryChecks::onlyKeys(dict, keys);
 }
 
@@ -113,11 +120,12 @@ static morph::BSpline readBasis
 }
 
 
-// More would take minutes to certify, or not fit into memory
+// Binomial coefficients of products of three polynomials of a higher order are
+// infinite, and more points would not fit into memory
 static void checkSize(const dictionary& dict, const labelVector& order)
 {
     const scalar most = 3e5;
-    const label mostBernstein = 20;
+    const label mostBernstein = 100;
     const bool spline =
         dict.getOrDefault<word>("basis", "bernstein") == "bSpline";
     const scalar n =

@@ -18,6 +18,25 @@ Foam::ffdBoxes::combinationNames
 });
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// Names of files have at most 255 characters
+static const std::size_t longestName = 100;
+
+
+static const dictionary& checked(const dictionary& dict)
+{
+    dictionaryChecks::checkNumbers(dict);
+    dictionaryChecks::checkValues(dict, {"combine"});
+    return dict;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ffdBoxes::ffdBoxes
@@ -26,7 +45,7 @@ Foam::ffdBoxes::ffdBoxes
     const objectRegistry* registry
 )
 :
-    dict_(dict),
+    dict_(checked(dict)),
     registry_(registry),
     combine_
     (
@@ -65,6 +84,14 @@ void Foam::ffdBoxes::readBoxes()
             FatalIOErrorInFunction(boxes)
                 << "Entry '" << e.keyword() << "' has to be the dictionary of"
                 << " a box" << nl << exit(FatalIOError);
+        }
+        if (e.keyword().size() > longestName)
+        {
+            FatalIOErrorInFunction(boxes)
+                << "The name of a box has " << label(e.keyword().size())
+                << " characters: " << e.keyword() << nl
+                << "    Files are called after it: give it at most "
+                << longestName << nl << exit(FatalIOError);
         }
         boxes_.append(ffdDeformation::New(e.dict(), registry_));
         forAll(boxes_.last().parameters(), i)

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "coordinateRotation.H"
 #include "dictionaryEntries.H"
 #include "eigenFields.H"
+#include "finiteNumbers.H"
 #include "unitConversion.H"
 
 // * * * * * * * * * * * * * * * * * Constants  * * * * * * * * * * * * * * * //
@@ -32,11 +33,12 @@ static vector readSpan(const dictionary& dict)
     const vector span(dictionaryChecks::getVector(dict, "span"));
     for (direction d = 0; d < vector::nComponents; ++d)
     {
-        if (!(span[d] > 0))
+        if (!(span[d] >= finiteNumbers::least))
         {
             FatalIOErrorInFunction(dict)
                 << "Entry 'span' is " << span
-                << " but each of its components has to be positive" << nl
+                << " but each of its components has to be positive (at least "
+                << finiteNumbers::least << ')' << nl
                 << "    The box reaches from its corner 'origin' along its"
                 << " axes; move the origin instead" << nl
                 << exit(FatalIOError);
@@ -61,10 +63,18 @@ static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
     {
         const tensor R
         (
-            coordinateRotation::New
+            dictionaryChecks::naming
             (
-                dictionaryChecks::subDict(dict, "rotation")
-            )->R()
+                dict,
+                "rotation",
+                [&]
+                {
+                    return coordinateRotation::New
+                    (
+                        dictionaryChecks::subDict(dict, "rotation")
+                    )->R();
+                }
+            )
         );
         axes = columns
         (
@@ -75,7 +85,9 @@ static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
     }
     return std::make_shared<morph::AffineFrame>
     (
-        toEigen(dictionaryChecks::getVector(dict, "origin")), toEigen(readSpan(dict)), axes
+        toEigen(dictionaryChecks::getVector(dict, "origin")),
+        toEigen(readSpan(dict)),
+        axes
     );
 }
 
@@ -83,7 +95,7 @@ static std::shared_ptr<const morph::FfdFrame> readBox(const dictionary& dict)
 static vector unitVector(const dictionary& dict, const word& key)
 {
     const vector v(dictionaryChecks::getVector(dict, key));
-    if (!(mag(v) > VSMALL))
+    if (!(mag(v) > finiteNumbers::least))
     {
         FatalIOErrorInFunction(dict)
             << "Entry '" << key << "' is " << v
@@ -156,7 +168,10 @@ static std::shared_ptr<const morph::FfdFrame> readCorners
     const dictionary& dict
 )
 {
-    const List<point> given(dict.lookup("corners"));
+    const List<point> given
+    (
+        dictionaryChecks::getLengths<List<point>>(dict, "corners")
+    );
     if (given.size() != 8)
     {
         FatalIOErrorInFunction(dict)

@@ -7,6 +7,25 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryEntries.H"
 #include "foamCompat.H"
 
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const dictionary& checked(const dictionary& dict)
+{
+    dictionaryChecks::onlyKeys
+    (
+        dict, {"min", "max", "moves"}, {"value", "valueCoeffs"}
+    );
+    return dict;
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::ffdParameter::ffdParameter
@@ -15,19 +34,35 @@ Foam::ffdParameter::ffdParameter
     const objectRegistry* registry
 )
 :
-    dict_(dict),
+    dict_(checked(dict)),
     name_(dict.dictName()),
-    function_(foamCompat::function1<scalar>("value", dict, registry)),
+    function_
+    (
+        dictionaryChecks::naming
+        (
+            dict,
+            "value",
+            [&]{ return foamCompat::function1<scalar>("value", dict, registry); }
+        )
+    ),
     min_(dictionaryChecks::getNumber(dict, "min", -GREAT)),
     max_(dictionaryChecks::getNumber(dict, "max", GREAT)),
     moves_(dict.lookup("moves")),
     generated_(false),
     value_(0)
 {
-    dictionaryChecks::onlyKeys
-    (
-        dict, {"value", "valueCoeffs", "min", "max", "moves"}
-    );
+    for (const auto& move : moves_)
+    {
+        dictionaryChecks::checkLengths(dict_, "moves", move.second());
+    }
+    if (name_.size() > 100)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The name of the parameter has " << label(name_.size())
+            << " characters" << nl
+            << "    Files are called after it: give it at most 100" << nl
+            << exit(FatalIOError);
+    }
     checkBounds();
     if (moves_.empty())
     {
@@ -99,7 +134,7 @@ void Foam::ffdParameter::checkBounds() const
 
 void Foam::ffdParameter::setValue(const scalar value)
 {
-    if (!(value >= min_ && value <= max_))
+    if (!std::isfinite(value) || !(value >= min_ && value <= max_))
     {
         FatalIOErrorInFunction(dict_)
             << "Parameter '" << name_ << "' has the value " << value

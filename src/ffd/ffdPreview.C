@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "ffdPreview.H"
 #include "foamVtkSurfaceWriter.H"
 #include "OSspecific.H"
+#include "wholeFile.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -92,6 +93,9 @@ static void writeFaces
     );
     vtk::surfaceWriter writer(moved, shown.faces, file);
     writer.writeGeometry();
+    const fileName written(writer.output());
+    writer.close();
+    wholeFile::checkEnd(written, "</VTKFile>");
 }
 
 } // End namespace ffdPreview
@@ -207,6 +211,9 @@ void Foam::ffdPreview::writeDerivatives
             vectorField(boxes.derivative(i)(), shown.labels)
         );
     }
+    const fileName written(writer.output());
+    writer.close();
+    wholeFile::checkEnd(written, "</VTKFile>");
 }
 
 

@@ -11,6 +11,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "morphVersion.H"
 #include "pointDisplacementField.H"
+#include "referencePoints.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -52,7 +53,7 @@ Foam::ffdMotionSolver::ffdMotionSolver
             foamCompat::pointMeshOf(mesh),
             dimensionedVector(dimLength, Zero)
         ),
-        pointIOField(points0IO(mesh)),
+        referencePoints::read(mesh, &points0IO)(),
         typeName
     ),
     boxes_
@@ -90,6 +91,7 @@ Foam::ffdMotionSolver::ffdMotionSolver
 
 const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
 {
+    dictionaryChecks::restoreNames(coeffDict(), objectPath());
     // Without a dictionary of coefficients this is dynamicMeshDict itself,
     // with keys of others
     if (found(typeName + "Coeffs"))

@@ -4,8 +4,94 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "dictionaryChecks.H"
+#include "finiteNumbers.H"
 #include "foamCompat.H"
 #include "PstreamReduceOps.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// No list of ours that repeats one value is longer
+static const label mostRepeated = 10000000;
+
+// Squares and cubes of larger numbers are infinite
+static const scalar largestNumber = 1e100;
+
+// Larger ones are no input of anything
+static const scalar largestInput = 1e250;
+
+
+static void checkValue(const dictionary& dict, const entry& e)
+{
+    if (!e.isDict() && e.stream().empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << e.keyword() << "' has no value and is no dictionary" << nl
+            << "    Give one, or remove the entry" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+static bool squarable(const scalar x)
+{
+    return std::isfinite(x) && x <= largestNumber && x >= -largestNumber;
+}
+
+
+static void wrongNumber(const dictionary& dict, const entry& e, const scalar x)
+{
+    FatalIOErrorInFunction(dict)
+        << "Entry '" << e.keyword() << "': " << x << " is no number to"
+        << " calculate with" << nl
+        << "    Give one between " << -largestInput << " and " << largestInput
+        << nl
+        << exit(FatalIOError);
+}
+
+
+static void checkTokens(const dictionary& dict, const entry& e)
+{
+    const ITstream& tokens = e.stream();
+    forAll(tokens, i)
+    {
+        const token& t = tokens[i];
+        if
+        (
+            t.isNumber()
+         && !(std::isfinite(t.number()) && mag(t.number()) <= largestInput)
+        )
+        {
+            wrongNumber(dict, e, t.number());
+        }
+        // Within brackets it is the first of a pair: (37 (0 0 1))
+        const bool pair = i > 0 && tokens[i - 1] == token::BEGIN_LIST;
+        if (!t.isLabel() || i + 1 == tokens.size() || pair)
+        {
+            continue;
+        }
+        const token& next = tokens[i + 1];
+        const label n = t.labelToken();
+        const label most =
+            next == token::BEGIN_LIST ? tokens.size() - i - 2
+          : next == token::BEGIN_BLOCK ? mostRepeated
+          : labelMax;
+        if (most < labelMax && (n < 0 || n > most))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << e.keyword() << "': a list in it cannot have "
+                << n << " elements" << nl
+                << "    Correct the number before the bracket, or remove it:"
+                << " lists are counted without" << nl
+                << exit(FatalIOError);
+        }
+    }
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -28,15 +114,129 @@ void Foam::dictionaryChecks::onlyKeys
 }
 
 
+void Foam::dictionaryChecks::onlyKeys
+(
+    const dictionary& dict,
+    const wordList& values,
+    const wordList& dictionaries
+)
+{
+    wordList allowed(values);
+    allowed.append(dictionaries);
+    onlyKeys(dict, allowed);
+    checkValues(dict, values);
+}
+
+
+void Foam::dictionaryChecks::checkValues
+(
+    const dictionary& dict,
+    const wordList& values
+)
+{
+    for (const entry& e : dict)
+    {
+        if (e.isDict() && values.found(e.keyword()))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << e.keyword() << "' is a dictionary, but has to"
+                << " be a value: a number, a word or a list" << nl
+                << "    Write " << e.keyword() << " <value>; without braces"
+                << nl << exit(FatalIOError);
+        }
+        checkValue(dict, e);
+    }
+}
+
+
+void Foam::dictionaryChecks::checkNumbers(const dictionary& dict)
+{
+    for (const entry& e : dict)
+    {
+        checkValue(dict, e);
+        if (e.isDict())
+        {
+            checkNumbers(e.dict());
+        }
+        else
+        {
+            checkTokens(dict, e);
+        }
+    }
+}
+
+
+void Foam::dictionaryChecks::checkLengths
+(
+    const dictionary& dict,
+    const word& key,
+    const vector& v
+)
+{
+    if (!finiteNumbers::usable(v))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "': " << v << " is no length or position"
+            << " to calculate with" << nl
+            << "    Give components between " << -finiteNumbers::largest
+            << " and " << finiteNumbers::largest << nl << exit(FatalIOError);
+    }
+}
+
+
+void Foam::dictionaryChecks::checkLengths
+(
+    const dictionary& dict,
+    const word& key,
+    const UList<vector>& list
+)
+{
+    for (const vector& v : list)
+    {
+        checkLengths(dict, key, v);
+    }
+}
+
+
+void Foam::dictionaryChecks::restoreNames
+(
+    const dictionary& dict,
+    const fileName& file
+)
+{
+    static const string sent("IOstream");
+    const auto restore = [&](fileName& name)
+    {
+        if (name.starts_with(sent))
+        {
+            name = file + name.substr(sent.size());
+        }
+    };
+    restore(const_cast<dictionary&>(dict).name());
+    for (const entry& e : dict)
+    {
+        if (e.isDict())
+        {
+            restoreNames(e.dict(), file);
+        }
+        else
+        {
+            restore(const_cast<ITstream&>(e.stream()).name());
+        }
+    }
+}
+
+
 Foam::scalar Foam::dictionaryChecks::getPositive
 (
     const dictionary& dict,
     const word& key
 )
 {
+    checkValues(dict, wordList(1, key));
     const token given(dict.lookup(key));
     const scalar value = given.isNumber() ? dict.get<scalar>(key) : -1;
-    if (!(value > 0) || value > VGREAT)
+    if (!(value > 0) || !squarable(value) || value < 1/largestNumber)
     {
         FatalIOErrorInFunction(dict)
             << "Entry '" << key << "' is " << given
@@ -79,6 +279,20 @@ void Foam::dictionaryChecks::stopIf
     {
         FatalIOErrorInFunction(dict)
             << first.c_str() << nl << exit(FatalIOError);
+    }
+}
+
+
+void Foam::dictionaryChecks::stopIf
+(
+    const fileName& file,
+    const string& message
+)
+{
+    const string first(firstOf(message));
+    if (!first.empty())
+    {
+        FatalErrorInFunction << first.c_str() << nl << exit(FatalError);
     }
 }
 

@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "dictionaryEntries.H"
+#include "finiteNumbers.H"
 #include "ITstream.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
@@ -43,7 +44,7 @@ Foam::vector Foam::dictionaryChecks::getVector
 )
 {
     // Products of three, as in volumes, stay finite
-    const scalar most = 1e60;
+    const scalar most = finiteNumbers::largest;
     if (dict.isDict(key))
     {
         FatalIOErrorInFunction(dict)

@@ -4,8 +4,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "pointDisplacementField.H"
+#include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "localIOdictionary.H"
+#include "OSspecific.H"
+#include "throwing.H"
+#include "untrapped.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -32,20 +36,51 @@ void Foam::pointDisplacementField::registerAndRead
 
     IOobject file(io(pointDisplacement.mesh()()));
     file.readOpt() = IOobject::MUST_READ;
-    if (!file.typeHeaderOk<pointVectorField>(true))
+    string fault;
+    try
     {
-        return;
-    }
+        const throwing errors;
+        const untrapped numbers;
+        const bool readable = file.typeHeaderOk<pointVectorField>(true);
+        if (!readable && exists(file.objectPath()))
+        {
+            FatalErrorInFunction
+                << "it is no pointVectorField" << nl
+                << "    Remove it where it is not needed" << nl
+                << exit(FatalError);
+        }
+        if (!readable)
+        {
+            return;
+        }
 
-    // Into the field that is there: some conditions cannot be copied before
-    // they were evaluated, for example solidBodyMotionDisplacement
-    const localIOdictionary dict(file, pointVectorField::typeName);
-    auto& internal = pointDisplacement.ref();
-    internal.readField(dict, "internalField");
-    pointDisplacement.boundaryFieldRef().readField
-    (
-        internal, dict.subDict("boundaryField")
-    );
+        // Into the field that is there: some conditions cannot be copied before
+        // they were evaluated, for example solidBodyMotionDisplacement
+        const localIOdictionary dict(file, pointVectorField::typeName);
+        dictionaryChecks::checkNumbers(dict);
+        auto& internal = pointDisplacement.ref();
+        internal.readField(dict, "internalField");
+        pointDisplacement.boundaryFieldRef().readField
+        (
+            internal, dict.subDict("boundaryField")
+        );
+    }
+    catch (const Foam::error& wrong)
+    {
+        fault = said(wrong);
+    }
+    catch (const std::exception& wrong)
+    {
+        fault = wrong.what();
+    }
+    if (!fault.empty())
+    {
+        // Not all ranks come here, and messages of OpenFOAM name no file
+        const dictionary read(fileName(file.objectPath()));
+        FatalIOErrorInFunction(read)
+            << file.name() << " cannot be read: " << fault.c_str() << nl
+            << "    Correct it" << nl << exit(FatalIOError);
+    }
 }
 
 

@@ -114,8 +114,13 @@ Foam::vector Foam::surfaceNormals::cornerNormal
     const vector& area
 )
 {
-    const scalar size = max(mag(a)*mag(b), VSMALL);
-    const vector unit = area/max(mag(area), VSMALL);
+    // A face without area has no direction
+    const scalar size = mag(a)*mag(b);
+    if (size < VSMALL || mag(area) < 1e-12*size)
+    {
+        return Zero;
+    }
+    const vector unit = area/mag(area);
     const vector between = (a ^ b)/size;
 
     // Between two edges nearly in line there is no telling a corner of the face
@@ -132,6 +137,13 @@ Foam::List<Foam::surfaceNormals::taggedNormal> Foam::surfaceNormals::distinct
     const scalar featureAngle
 )
 {
+    // Faces without area have none
+    inplaceSubsetList
+    (
+        normals,
+        [](const taggedNormal& n) { return mag(n.normal) > 0; }
+    );
+
     // One order, whichever rank has which faces
     std::sort(normals.begin(), normals.end(), taggedBefore);
 

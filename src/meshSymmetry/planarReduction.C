@@ -39,7 +39,8 @@ Foam::planarReduction::planarReduction
     bool wedge = false;
     for (const polyPatch& patch : mesh.boundaryMesh())
     {
-        wedge = wedge || isA<wedgePolyPatch>(patch);
+        // One without faces is left over in a three-dimensional mesh
+        wedge = wedge || (isA<wedgePolyPatch>(patch) && patch.size());
     }
 
     if (returnReduce(wedge, orOp<bool>()))

@@ -5,9 +5,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "motionRecord.H"
 #include "validFraction.H"
-#include "OFstream.H"
-#include "OSspecific.H"
 #include "Time.H"
+#include "wholeFile.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -106,14 +105,18 @@ void Foam::motionRecord::writeReport() const
     }
     if (Pstream::master())
     {
-        const fileName path(time().globalPath()/folder_);
-        mkDir(path);
-        OFstream os(path/"motion");
-        os.precision(17);
-        IOobject header(*this, "motion");
-        header.writeHeader(os, dictionary::typeName);
-        dictionary::write(os, false);
-        IOobject::writeEndDivider(os);
+        wholeFile::writeOrStop
+        (
+            time().globalPath()/folder_/"motion",
+            [&](Ostream& os)
+            {
+                os.precision(17);
+                IOobject header(*this, "motion");
+                header.writeHeader(os, dictionary::typeName);
+                dictionary::write(os, false);
+                IOobject::writeEndDivider(os);
+            }
+        );
     }
     Info<< "Wrote " << (folder_/"motion").c_str() << endl;
     returnReduce(true, andOp<bool>());

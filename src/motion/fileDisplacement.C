@@ -6,9 +6,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fileDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "finiteNumbers.H"
 #include "foamCompat.H"
+#include "OSspecific.H"
 #include "StringStream.H"
 #include "Time.H"
+#include "untrapped.H"
 
 #include <fstream>
 #include <sstream>
@@ -61,8 +64,9 @@ void Foam::fileDisplacement::read(const fileName& file)
 
     if (Pstream::master())
     {
+        const untrapped numbers;
         std::ifstream stream(file);
-        if (!stream)
+        if (!stream || !isFile(file))
         {
             message = "Entry 'file': cannot read " + file;
         }
@@ -78,11 +82,12 @@ void Foam::fileDisplacement::read(const fileName& file)
             std::string rest;
             std::istringstream is(line);
             is  >> x.x() >> x.y() >> x.z() >> d.x() >> d.y() >> d.z();
-            if (!is || (is >> rest))
+            const bool six = is && !(is >> rest);
+            if (!six || !finiteNumbers::usable(x) || !finiteNumbers::usable(d))
             {
                 message =
                     file + ", line " + std::to_string(number)
-                  + ": a line has six numbers, x y z dx dy dz";
+                  + ": a line has six numbers, x y z dx dy dz, of metres";
                 break;
             }
             positions.append(x);

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "polylineDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
+#include "dictionaryChecks.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -30,8 +31,8 @@ Foam::polylineDisplacement::polylineDisplacement
 )
 :
     tabulatedDisplacement(dict, mesh, {"vertices", "values"}),
-    vertices_(dict.get<pointField>("vertices")),
-    values_(dict.get<vectorField>("values"))
+    vertices_(dictionaryChecks::getLengths<pointField>(dict, "vertices")),
+    values_(dictionaryChecks::getLengths<vectorField>(dict, "values"))
 {
     if (vertices_.size() < 2 || values_.size() != vertices_.size())
     {

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
 #include "transformField.H"
+#include "untrapped.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -68,7 +69,18 @@ Foam::solidBodyDisplacement::solidBodyDisplacement
 )
 :
     prescribedDisplacement(dict, mesh),
-    motion_(solidBodyMotionFunction::New(checked(dict), mesh.time()))
+    motion_
+    (
+        dictionaryChecks::naming
+        (
+            dict,
+            "solidBodyMotionFunction",
+            [&]
+            {
+                return solidBodyMotionFunction::New(checked(dict), mesh.time());
+            }
+        )
+    )
 {}
 
 
@@ -79,6 +91,8 @@ Foam::tmp<Foam::vectorField> Foam::solidBodyDisplacement::displacement
     const points& p
 ) const
 {
+    // What is not finite is found where it is used
+    const untrapped numbers;
     return
         transformPoints(motion_().transformation(), p.positions)
       - p.positions;

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
 #include "Time.H"
+#include "untrapped.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -20,13 +21,18 @@ Foam::tabulatedDisplacement::tabulatedDisplacement
     prescribedDisplacement(dict, mesh),
     scale_(nullptr)
 {
-    wordList allowed({"type", "scale", "scaleCoeffs"});
-    allowed.append(keys);
-    dictionaryChecks::onlyKeys(dict, allowed);
+    wordList values({"type"});
+    values.append(keys);
+    dictionaryChecks::onlyKeys(dict, values, {"scale", "scaleCoeffs"});
 
     if (dict.found("scale"))
     {
-        scale_ = foamCompat::function1<scalar>("scale", dict, &mesh);
+        scale_ = dictionaryChecks::naming
+        (
+            dict,
+            "scale",
+            [&]{ return foamCompat::function1<scalar>("scale", dict, &mesh); }
+        );
     }
 }
 
@@ -41,7 +47,14 @@ Foam::tmp<Foam::vectorField> Foam::tabulatedDisplacement::displacement
     tmp<vectorField> d = unscaled(p);
     if (scale_.valid())
     {
-        d.ref() *= scale_->value(mesh().time().timeOutputValue());
+        const scalar scale = dictionaryChecks::naming
+        (
+            dict(),
+            "scale",
+            [&]{ return scale_->value(mesh().time().timeOutputValue()); }
+        );
+        const untrapped numbers;
+        d.ref() *= scale;
     }
     return d;
 }

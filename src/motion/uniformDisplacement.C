@@ -33,9 +33,17 @@ Foam::uniformDisplacement::uniformDisplacement
 )
 :
     prescribedDisplacement(dict, mesh),
-    value_(foamCompat::function1<vector>("value", dict, &mesh))
+    value_
+    (
+        dictionaryChecks::naming
+        (
+            dict,
+            "value",
+            [&]{ return foamCompat::function1<vector>("value", dict, &mesh); }
+        )
+    )
 {
-    dictionaryChecks::onlyKeys(dict, {"type", "value", "valueCoeffs"});
+    dictionaryChecks::onlyKeys(dict, {"type"}, {"value", "valueCoeffs"});
 }
 
 
@@ -49,7 +57,12 @@ Foam::tmp<Foam::vectorField> Foam::uniformDisplacement::displacement
     return tmp<vectorField>::New
     (
         p.positions.size(),
-        value_->value(mesh().time().timeOutputValue())
+        dictionaryChecks::naming
+        (
+            dict(),
+            "value",
+            [&]{ return value_->value(mesh().time().timeOutputValue()); }
+        )
     );
 }
 

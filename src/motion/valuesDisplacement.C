@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "valuesDisplacement.H"
 #include "addToRunTimeSelectionTable.H"
+#include "dictionaryChecks.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -30,7 +31,7 @@ Foam::valuesDisplacement::valuesDisplacement
 )
 :
     tabulatedDisplacement(dict, mesh, {"values"}),
-    values_(dict.get<vectorField>("values"))
+    values_(dictionaryChecks::getLengths<vectorField>(dict, "values"))
 {
     if (nListed == 0 || !patches.empty())
     {

@@ -14,6 +14,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
+// A motion that needs more is one of several time steps
+static const label mostSubSteps = 1000;
+
+
 static const Enum<morph::Polynomial> polynomialNames
 ({
     { morph::Polynomial::none, "none" },
@@ -136,6 +140,14 @@ static void readGreedy
     if (dict.found("tolerance"))
     {
         selection.tolerance = dictionaryChecks::getPositive(dict, "tolerance");
+        if (selection.tolerance >= 1)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'tolerance' is " << selection.tolerance
+                << " of the largest displacement: nothing would be moved"
+                << nl << "    Give less than 1; 1e-3 is coarse" << nl
+                << exit(FatalIOError);
+        }
     }
     if (dict.found("maxPoints"))
     {
@@ -284,6 +296,14 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
 
     settings.onInvalidMesh = motionLimiter::readPolicy(dict);
     settings.subSteps = readCountOrAuto(dict, "subSteps", 1);
+    if (settings.subSteps > mostSubSteps)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'subSteps' is " << settings.subSteps
+            << ", each of which is a selection" << nl
+            << "    Give at most " << mostSubSteps << ", or auto" << nl
+            << exit(FatalIOError);
+    }
     return settings;
 }
 

@@ -11,6 +11,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "morphVersion.H"
 #include "motionRecord.H"
 #include "pointDisplacementField.H"
+#include "referencePoints.H"
 #include "StringStream.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -64,7 +65,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
             foamCompat::pointMeshOf(mesh),
             dimensionedVector(dimLength, Zero)
         ),
-        pointIOField(points0IO(mesh)),
+        referencePoints::read(mesh, &points0IO)(),
         typeName
     ),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
@@ -112,6 +113,18 @@ Foam::rbfMotionSolver::~rbfMotionSolver()
 
 const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
+    dictionaryChecks::restoreNames(coeffDict(), objectPath());
+    dictionaryChecks::checkNumbers(coeffDict());
+    dictionaryChecks::checkValues
+    (
+        coeffDict(),
+        {
+            "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
+            "selection", "images", "surfaceCorrection", "featureAngle",
+            "exactSliding", "onInvalidMesh", "subSteps"
+        }
+    );
+
     // Without a dictionary of coefficients this is dynamicMeshDict itself,
     // with keys of others
     if (found(typeName + "Coeffs"))
@@ -136,6 +149,7 @@ void Foam::rbfMotionSolver::initialise()
     cellDisplacement_ =
         cellDisplacementField::New(mesh(), points0(), pointDisplacement_);
     makeGroups();
+    state_.require(coeffDict());
 }
 
 
@@ -299,6 +313,7 @@ Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 
 
 void Foam::rbfMotionSolver::solve()
+try
 {
     motionTimes times;
     const bool first = !problem_.valid();
@@ -333,6 +348,15 @@ void Foam::rbfMotionSolver::solve()
     {
         summary_.writeStep(Info, type());
     }
+}
+catch (const Foam::error&)
+{
+    throw;
+}
+catch (const std::exception& wrong)
+{
+    FatalIOErrorInFunction(coeffDict())
+        << wrong.what() << nl << exit(FatalIOError);
 }
 
 

@@ -4,12 +4,18 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "rbfMotionState.H"
+#include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "foamCompat.H"
+#include "IFstream.H"
+#include "OSspecific.H"
 #include "positionTable.H"
+#include "SHA1.H"
+#include "StringStream.H"
 #include "SubField.H"
 #include "Time.H"
 #include "Tuple2.H"
+#include "untrapped.H"
 
 #include <limits>
 
@@ -74,45 +80,117 @@ Foam::rbfMotionState::rbfMotionState(const polyMesh& mesh)
             mesh.time().timeName(),
             "uniform",
             mesh,
-            IOobject::READ_IF_PRESENT,
+            IOobject::NO_READ,
             IOobject::AUTO_WRITE
         )
     ),
-    supportRadius_(getOrDefault<scalar>("supportRadius", 0)),
+    mesh_(mesh),
+    found_(false),
+    supportRadius_(0),
     written_(false)
 {
-    if (found("controlPoints"))
+    // By hand: a file that cannot be read is not the same as none, and in
+    // parallel the reader of OpenFOAM does not know its name
+    const fileName path(typeFilePath<IOdictionary>(*this));
+    string fault;
+    if (Pstream::master())
     {
-        // Its numbers are text in binary files as well
-        ITstream& is = lookup("controlPoints");
-        is.format(IOstream::ASCII);
-        const pointField all(is);
+        found_ = path.size() || exists(objectPath());
+        fault = found_ ? read(path.size() ? path : objectPath()) : string();
+    }
+    dictionaryChecks::stopIf(objectPath(), fault);
+    foamCompat::broadcast(found_);
+    foamCompat::broadcast(supportRadius_);
+    foamCompat::broadcast(positions_);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::string Foam::rbfMotionState::checksum() const
+{
+    OStringStream os;
+    os.precision(std::numeric_limits<scalar>::max_digits10);
+    os  << supportRadius_ << positions_;
+    return SHA1(os.str()).str();
+}
+
+
+Foam::string Foam::rbfMotionState::read(const fileName& path)
+{
+    const untrapped numbers;
+    string fault;
+    try
+    {
+        const throwing errors;
+        IFstream is(path);
+        const dictionary dict(is);
+        dictionaryChecks::checkNumbers(dict);
+        supportRadius_ = dict.get<scalar>("supportRadius");
+        const pointField all(dict.get<pointField>("controlPoints"));
 
         // One size for each region, if there is more than one
         const labelList sizes
         (
-            getOrDefault<labelList>("regionSizes", labelList(1, all.size()))
+            dict.getOrDefault<labelList>
+            (
+                "regionSizes", labelList(1, all.size())
+            )
         );
         label start = 0;
         for (const label size : sizes)
         {
             if (size < 0 || size > all.size() - start)
             {
-                FatalIOErrorInFunction(*this)
-                    << "Entry 'regionSizes' does not add up to the "
-                    << all.size() << " 'controlPoints'" << nl
-                    << "    The file is damaged: restore it, or remove it to"
-                    << " let the run select anew" << nl << exit(FatalIOError);
+                fault = "'regionSizes' does not add up to the 'controlPoints'";
+                break;
             }
             positions_.append(pointField(SubField<point>(all, size, start)));
             start += size;
         }
+        if (fault.empty() && dict.get<string>("checksum") != checksum())
+        {
+            fault = "its checksum is that of other contents";
+        }
     }
-    dictionary::clear();
+    catch (const Foam::error& wrong)
+    {
+        fault = said(wrong);
+    }
+    catch (const std::exception& wrong)
+    {
+        fault = wrong.what();
+    }
+    return fault.empty() ? fault : string
+    (
+        path + " is not as it was written: " + fault + nl
+      + "    It keeps what a restart needs to continue as the run would have."
+        " Restore it, or restart from another time"
+    );
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::rbfMotionState::require(const dictionary& coeffs) const
+{
+    // A run, not one application of morphMesh, has moved the mesh
+    const bool restart =
+        time().startTimeIndex() > 0
+     && mesh_.pointsInstance() == time().timeName()
+     && time().timeIndex() == time().startTimeIndex();
+    if (found_ || !restart || coeffs.found("supportRadius"))
+    {
+        return;
+    }
+    FatalIOErrorInFunction(coeffs)
+        << "There is no file " << objectPath() << ", which keeps the support"
+        << " radius over a restart" << nl
+        << "    Restore it. Where another motion solver moved the mesh so far,"
+        << " give the entry 'supportRadius', a length [m]" << nl
+        << exit(FatalIOError);
+}
+
 
 void Foam::rbfMotionState::setPositions
 (
@@ -211,7 +289,8 @@ bool Foam::rbfMotionState::writeData(Ostream& os) const
             os  << x << nl;
         }
     }
-    os  << token::END_LIST << token::END_STATEMENT << nl;
+    os  << token::END_LIST << token::END_STATEMENT << nl << nl;
+    os.writeKeyword("checksum") << checksum() << token::END_STATEMENT << nl;
     os.precision(precision);
     return os.good();
 }

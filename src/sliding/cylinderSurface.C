@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "cylinderSurface.H"
 #include "dictionaryChecks.H"
+#include "finiteNumbers.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -15,12 +16,12 @@ const Foam::word Foam::cylinderSurface::searchableType("searchableCylinder");
 
 Foam::cylinderSurface::cylinderSurface(const dictionary& dict)
 :
-    origin_(dict.get<point>("point1")),
-    axis_(dict.get<point>("point2") - origin_),
+    origin_(dictionaryChecks::getLengths<point>(dict, "point1")),
+    axis_(dictionaryChecks::getLengths<point>(dict, "point2") - origin_),
     radius_(dictionaryChecks::getPositive(dict, "radius"))
 {
-    dictionaryChecks::onlyKeys(dict, {"type", "point1", "point2", "radius"});
-    if (mag(axis_) < VSMALL)
+    dictionaryChecks::onlyKeys(dict, {"type", "point1", "point2", "radius"}, {});
+    if (mag(axis_) < finiteNumbers::least)
     {
         FatalIOErrorInFunction(dict)
             << "Entries 'point1' and 'point2' are both " << origin_ << nl

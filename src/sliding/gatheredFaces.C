@@ -44,7 +44,8 @@ static scalar cosineAcross
     const scalar sign = f.edgeDirection(e) == g.edgeDirection(e) ? -1 : 1;
     const vector n(normalised(f.areaNormal(points)));
     const vector m(normalised(g.areaNormal(points)));
-    return sign*(n & m);
+    // A face without area turns nowhere
+    return n == vector(Zero) || m == vector(Zero) ? 1 : sign*(n & m);
 }
 
 

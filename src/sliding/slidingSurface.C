@@ -7,9 +7,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "analyticSurface.H"
 #include "cylinderSurface.H"
 #include "plainText.H"
+#include "surfaceFile.H"
 #include "Time.H"
 #include "triangulatedSurface.H"
-#include "triSurface.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -35,16 +35,17 @@ static autoPtr<slidingSurface> fromFile
             << plainText::listed(there).c_str()
             << nl << exit(FatalIOError);
     }
-    triSurface surface(path);
-    if (surface.empty())
+    string wrong;
+    const autoPtr<triSurface> surface(surfaceFile::read(path, wrong));
+    if (!wrong.empty())
     {
         FatalIOErrorInFunction(dict)
-            << "Entry '" << e.keyword() << "': " << path
-            << " has no triangles" << nl << exit(FatalIOError);
+            << "Entry '" << e.keyword() << "': " << wrong.c_str() << nl
+            << "    Repair the file" << nl << exit(FatalIOError);
     }
     return autoPtr<slidingSurface>
     (
-        new triangulatedSurface(surface, featureAngle)
+        new triangulatedSurface(surface(), featureAngle)
     );
 }
 

@@ -16,11 +16,25 @@ namespace Foam
 
 static vector normalOf(const face& f, const pointField& x, const label k)
 {
+    // Edges without length are passed over: the corner is between those that
+    // have one
     const label n = f.size();
     const point& here = x[f[k]];
+    label next = 1;
+    while (next < n && x[f[(k + next) % n]] == here)
+    {
+        ++next;
+    }
+    label former = 1;
+    while (former < n && x[f[(k + n - former) % n]] == here)
+    {
+        ++former;
+    }
     return surfaceNormals::cornerNormal
     (
-        x[f[(k + 1) % n]] - here, x[f[(k + n - 1) % n]] - here, f.areaNormal(x)
+        x[f[(k + next) % n]] - here,
+        x[f[(k + n - former) % n]] - here,
+        f.areaNormal(x)
     );
 }
 
@@ -130,6 +144,7 @@ Foam::smoothPatchNormals::distinct
     }
     turned = returnReduce(turned, orOp<bool>());
 
+    OStringStream message;
     List<List<surfaceNormals::taggedNormal>> normals(controlled_.size());
     forAll(normals, i)
     {
@@ -144,6 +159,14 @@ Foam::smoothPatchNormals::distinct
             };
         }
         normals[i] = surfaceNormals::distinct(all, featureAngle_);
+        if (normals[i].empty() && all.size() && message.str().empty())
+        {
+            message
+                << "None of the faces that slide at the point "
+                << points0_[controlled_[i]] << " has an area" << nl
+                << "    Repair the mesh there (checkMesh lists such faces), or"
+                << " let other patches slide";
+        }
         for (surfaceNormals::taggedNormal& n : normals[i])
         {
             n.normal = turned ? surfaceNormals::rounded(n.normal) : n.normal;
@@ -153,6 +176,7 @@ Foam::smoothPatchNormals::distinct
             normals[i].append({plane_.radial(), -1});
         }
     }
+    dictionaryChecks::stopIf(dict_, message.str());
     return normals;
 }
 

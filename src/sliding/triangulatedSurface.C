@@ -105,7 +105,8 @@ void Foam::triangulatedSurface::findEdges(const scalar featureAngle)
         for (label f = 1; f < faces.size(); ++f)
         {
             const vector m = normalised(triangles[faces[f]].areaNormal(x));
-            if ((n & m) < Foam::cos(featureAngle))
+            const bool some = n != vector(Zero) && m != vector(Zero);
+            if (some && (n & m) < Foam::cos(featureAngle))
             {
                 sharp.append(e);
                 break;

@@ -32,10 +32,18 @@ class UniqueKeys(yaml.SafeLoader):
 def load(path):
     """The content of a YAML file."""
     try:
-        content = yaml.load(Path(path).read_text(), UniqueKeys)
+        content = yaml.load(Path(path).read_text("utf-8"), UniqueKeys)
     except OSError as error:
         raise StudyError(f"{path} cannot be read: {error.strerror}") from None
-    except (yaml.YAMLError, StudyError) as error:
+    except (
+        # Of bytes that are no text, values that only look like numbers or
+        # dates, and keys that are lists
+        yaml.YAMLError,
+        StudyError,
+        ValueError,
+        TypeError,
+        RecursionError,
+    ) as error:
         raise StudyError(f"{path} is no YAML file: {error}") from None
     return content
 

@@ -16,6 +16,27 @@ namespace
 // Halvings after which a question counts as answered by no
 const int mostHalvings = 4000;
 
+// And the operations that they may take altogether
+const double mostOperations = 1e10;
+
+
+// Of a polynomial of high degree fewer, each of which is dear
+int mostHalvingsOf(const TensorPolynomial& polynomial)
+{
+    double cost = 1;
+    double degree = 1;
+    for (const Index n : polynomial.degrees())
+    {
+        cost *= double(n + 1);
+        degree = std::max(degree, double(n));
+    }
+    return int(std::min
+    (
+        std::max(mostOperations/(cost*degree), 20.0), double(mostHalvings)
+    ));
+}
+
+
 // Relative to the determinant at rest: below this it is zero
 const double roundOff = 1e-12;
 
@@ -249,12 +270,51 @@ std::vector<FoldCertificate::Span> FoldCertificate::spans() const
 }
 
 
+TensorPolynomial FoldCertificate::expanded
+(
+    const Span& span,
+    double scale
+) const
+{
+    // The determinant is linear in each row: those of the box at rest are of low
+    // degree, and those of the motion have few coefficients
+    TensorPolynomial sum(0);
+    for (std::size_t which = 0; which < 8; ++which)
+    {
+        Columns3 m;
+        bool zero = false;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const bool moves = which & (std::size_t(1) << i);
+            zero = zero || (moves && (scale == 0 || span.moved[i].isZero()));
+            for (int d = 0; d < 3; ++d)
+            {
+                m[i][std::size_t(d)] =
+                    moves
+                  ? scale*span.moved[i].derivative(d)
+                  : span.rest[i].derivative(d);
+            }
+        }
+        if (!zero)
+        {
+            sum += determinantOf(m);
+        }
+    }
+    return sum;
+}
+
+
 TensorPolynomial FoldCertificate::determinant
 (
     const Span& span,
     double scale
 ) const
 {
+    if (!lattice_.rational())
+    {
+        return expanded(span, scale);
+    }
+
     // Rows: components; columns: directions
     Columns3 m;
     for (std::size_t i = 0; i < 3; ++i)
@@ -266,11 +326,6 @@ TensorPolynomial FoldCertificate::determinant
               + scale*span.moved[i].derivative(d);
         }
     }
-    if (!lattice_.rational())
-    {
-        return determinantOf(m);
-    }
-
     // Expanded by the column [W, t N]
     TensorPolynomial sum = span.weight*determinantOf(m);
     for (std::size_t i = 0; i < 3; ++i)
@@ -330,6 +385,7 @@ bool FoldCertificate::positive
 
     const double zero = roundOff*std::max(polynomial.largest(), 0.0);
     std::vector<Part> open(1, Part{polynomial, low, high});
+    const int most = mostHalvingsOf(polynomial);
     int halvings = 0;
     while (!open.empty())
     {
@@ -349,7 +405,7 @@ bool FoldCertificate::positive
         }
         const int d = steepest(part.polynomial);
         const double middle = 0.5*(part.low[d] + part.high[d]);
-        if (++halvings > mostHalvings)
+        if (++halvings > most)
         {
             where_ = 0.5*(part.low + part.high);
             return false;
@@ -464,7 +520,9 @@ double FoldCertificate::safeScale(double tolerance)
     {
         add(std::move(piece));
     }
-    for (int halvings = 0; !open.empty() && halvings < mostHalvings; ++halvings)
+    const int most =
+        open.empty() ? 0 : mostHalvingsOf(open.top().inScale[0]);
+    for (int halvings = 0; !open.empty() && halvings < most; ++halvings)
     {
         const Piece piece = open.top();
         if (std::min(reached, 1.0) - piece.safe <= tolerance)

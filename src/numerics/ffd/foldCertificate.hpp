@@ -88,6 +88,8 @@ private:
         int component
     ) const;
 
+    TensorPolynomial expanded(const Span& span, double scale) const;
+
     TensorPolynomial determinant(const Span& span, double scale) const;
 
     TensorPolynomial radius(const Span& span, double scale) const;

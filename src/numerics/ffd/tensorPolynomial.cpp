@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace morph
 {
 
 namespace
 {
+
+// Of one product: some ten seconds
+const double mostOperations = 2e10;
+
 
 Index count(const TensorPolynomial::Degrees& degrees)
 {
@@ -182,8 +187,15 @@ TensorPolynomial TensorPolynomial::elevated(const Degrees& degrees) const
             reached, std::vector<double>(std::size_t(count(reached)), 0.0)
         );
     }
-    const std::vector<double> ones(std::size_t(count(missing)), 1.0);
-    return *this*TensorPolynomial(missing, ones);
+    TensorPolynomial result(*this);
+    for (std::size_t d = 0; d < 3; ++d)
+    {
+        Degrees along{{0, 0, 0}};
+        along[d] = missing[d];
+        const std::vector<double> ones(std::size_t(missing[d] + 1), 1.0);
+        result = result*TensorPolynomial(along, ones);
+    }
+    return result;
 }
 
 
@@ -253,6 +265,13 @@ bool TensorPolynomial::isZero() const
 }
 
 
+Index TensorPolynomial::nonZero() const
+{
+    return Index(coefficients_.size())
+      - Index(std::count(coefficients_.begin(), coefficients_.end(), 0.0));
+}
+
+
 TensorPolynomial& TensorPolynomial::operator+=(const TensorPolynomial& other)
 {
     Degrees degrees;
@@ -280,11 +299,33 @@ TensorPolynomial& TensorPolynomial::operator*=(double factor)
 }
 
 
-TensorPolynomial operator*(const TensorPolynomial& a, const TensorPolynomial& b)
+TensorPolynomial operator*
+(
+    const TensorPolynomial& first,
+    const TensorPolynomial& second
+)
 {
-    if (a.isZero() || b.isZero())
+    // What is zero costs nothing: few points of a large lattice move
+    const double some[] = {double(first.nonZero()), double(second.nonZero())};
+    if (some[0] == 0 || some[1] == 0)
     {
         return TensorPolynomial(0);
+    }
+    const double costs[] =
+    {
+        some[0]*double(second.coefficients_.size()),
+        some[1]*double(first.coefficients_.size())
+    };
+    const bool inOrder = costs[0] <= costs[1];
+    const TensorPolynomial& a = inOrder ? first : second;
+    const TensorPolynomial& b = inOrder ? second : first;
+    if (std::min(costs[0], costs[1]) > mostOperations)
+    {
+        throw std::length_error
+        (
+            "so many control points of so high an order move that it would"
+            " take minutes to see whether the lattice folds"
+        );
     }
 
     // Of coefficients times binomials, a product is a plain convolution
@@ -308,6 +349,10 @@ TensorPolynomial operator*(const TensorPolynomial& a, const TensorPolynomial& b)
             for (Index ia = 0; ia <= a.degrees_[0]; ++ia)
             {
                 const double factor = *valueA++;
+                if (factor == 0)
+                {
+                    continue;
+                }
                 const double* valueB = scaledB.data();
                 for (Index kb = 0; kb <= b.degrees_[2]; ++kb)
                 {

@@ -64,6 +64,9 @@ public:
     // Is it zero, coefficient for coefficient?
     bool isZero() const;
 
+    // The number of coefficients that are not zero
+    Index nonZero() const;
+
     TensorPolynomial& operator+=(const TensorPolynomial& other);
 
     TensorPolynomial& operator*=(double factor);

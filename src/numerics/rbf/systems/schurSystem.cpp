@@ -87,16 +87,27 @@ std::vector<bool> SchurSystem::append
 
 bool SchurSystem::restart()
 {
-    kept_.insert(kept_.end(), added_.begin(), added_.end());
-    added_.clear();
-    if (kept_.empty())
+    ControlPoints all(kept_);
+    all.insert(all.end(), added_.begin(), added_.end());
+    if (all.empty())
     {
         return true;
     }
-    lu_.compute(referenceSystem(kernel_, kept_, kept_, true));
+    const Eigen::PartialPivLU<Matrix> lu
+    (
+        referenceSystem(kernel_, all, all, true)
+    );
+    if (singular(lu))
+    {
+        // Nearly so: the blocks, which could be solved, stay
+        return false;
+    }
+    lu_ = lu;
+    kept_ = all;
+    added_.clear();
     keptAlone_ = lu_.solve(paperValues(kept_));
     gamma_ = keptAlone_;
-    return !singular(lu_);
+    return true;
 }
 
 
@@ -111,8 +122,12 @@ bool SchurSystem::solveBlocks()
     if (kept_.empty())
     {
         const Eigen::PartialPivLU<Matrix> lu(own);
+        if (singular(lu))
+        {
+            return false;
+        }
         gamma_ = lu.solve(paperValues(added_));
-        return !singular(lu);
+        return true;
     }
 
     // (24)-(29)
@@ -120,13 +135,17 @@ bool SchurSystem::solveBlocks()
     const Matrix across = referenceSystem(kernel_, kept_, added_, false);
     const Matrix M = lu_.solve(across);
     const Eigen::PartialPivLU<Matrix> schur(own - down*M);
+    if (singular(schur))
+    {
+        return false;
+    }
     const Matrix gammaA =
         schur.solve(paperValues(added_) - down*keptAlone_);
     const Matrix gammaG = lu_.solve(paperValues(kept_) - across*gammaA);
 
     gamma_.resize(gammaG.rows() + gammaA.rows(), 1);
     gamma_ << gammaG, gammaA;
-    return !singular(schur);
+    return true;
 }
 
 
