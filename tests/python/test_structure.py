@@ -97,6 +97,19 @@ def test_version_switches_are_in_one_header():
     assert users <= {"foamCompat.H"}
 
 
+def test_every_program_is_compiled_alike():
+    """C++17, and with clang what clang needs: Make/options."""
+    options = [path for folder in ("", "applications", "benchmarks", "src",
+                                   "tests")
+               for path in (ROOT/folder).glob(
+                   "**/Make/options" if folder else "Make/options")]
+    assert len(options) > 10
+    for path in options:
+        text = path.read_text()
+        assert "-std=c++17" in text, path
+        assert "$(MORPHFOAM_CLANG_FLAGS)" in text, path
+
+
 @pytest.mark.parametrize("call", [
     r"scatterList|listCombineScatter",  # wrong or deprecated from v2406 on
     r"Pstream::scatter\b",              # deprecated from v2406 on
