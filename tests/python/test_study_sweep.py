@@ -36,7 +36,7 @@ POINTS = [
     (0.5, 0.95),
     (0.6, 0.1),
 ]
-TIMEOUT = ("optimise:", "failure: {timeout: 3}\noptimise:")
+TIMEOUT = ("optimise:", "failure: {timeout: 10}\noptimise:")
 
 
 def started(folder, *changes):
@@ -99,7 +99,7 @@ def test_a_design_that_fails_is_recorded_and_the_rest_go_on(undisturbed):
     assert rows["0002"]["reason"] == (
         "solve: diverged, floating point exception at time 6"
     )
-    assert rows["0005"]["reason"] == "solve: timeout after 3 s"
+    assert rows["0005"]["reason"] == "solve: timeout after 10 s"
     assert "4 done, 2 failed, 0 not finished" in said
 
 
