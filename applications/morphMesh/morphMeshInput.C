@@ -163,6 +163,7 @@ void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionNa
         runTime
     );
 
+    const untrapped numbers;
     const bool found = io.typeHeaderOk<faceIOList>(false);
     if (!returnReduce(found, andOp<bool>()))
     {

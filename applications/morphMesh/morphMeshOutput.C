@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "fvMesh.H"
 #include "pointIOField.H"
 #include "referencePoints.H"
+#include "untrapped.H"
 #include "wholeFile.H"
 
 #include <limits>
@@ -65,6 +66,7 @@ static void keepReference(const fvMesh& mesh)
         mesh
     );
 
+    const untrapped numbers;
     const bool found = io.typeHeaderOk<pointIOField>(true);
     if (returnReduce(found, andOp<bool>()))
     {
@@ -142,6 +144,7 @@ static void writeDisplacement(const PtrList<motionSolver>& solvers)
               ->pointDisplacement();
 
             IOobject io(field, field.name());
+            const untrapped numbers;
             const bool found = io.typeHeaderOk<pointVectorField>(true);
 
             // One that the solver made up itself is no input of the case

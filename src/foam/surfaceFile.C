@@ -12,6 +12,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "untrapped.H"
 #include "wholeFile.H"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <sstream>
@@ -126,6 +128,76 @@ static string faultOfBinarySTL(const fileName& path)
 }
 
 
+//- OpenFOAM's reader ends the program where a line is not what it expects
+static string faultOfTextSTL(const fileName& path)
+{
+    IFstream is(uncompressed(path));
+    label corners = -1;
+    for (label number = 1; is.good(); ++number)
+    {
+        string text;
+        is.getLine(text);
+        std::transform(text.begin(), text.end(), text.begin(), ::tolower);
+        std::istringstream line(text);
+        std::string what;
+        line >> what;
+        string fault;
+        if (what == "outer")
+        {
+            corners = 0;
+        }
+        else if (what == "vertex")
+        {
+            fault =
+                corners < 0 || corners > 2 ? "a vertex belongs to no triangle"
+              : vertexFault(line);
+            ++corners;
+        }
+        else if (what == "endloop")
+        {
+            fault =
+                corners == 3 ? ""
+              : "a triangle has " + std::to_string(max(corners, label(0)))
+              + " vertices";
+            corners = -1;
+        }
+        else if (corners >= 0 && !what.empty())
+        {
+            fault = "'" + what + "' stands between the vertices of a triangle";
+        }
+        else if
+        (
+            !what.empty() && what != "solid" && what != "endsolid"
+         && what != "facet" && what != "endfacet" && what != "color"
+        )
+        {
+            fault = "'" + what + "' is no word of such a file";
+        }
+        if (!fault.empty())
+        {
+            return path + ", line " + std::to_string(number) + ": " + fault;
+        }
+    }
+    return
+        corners < 0 ? string()
+      : string(path + ": it ends within a triangle");
+}
+
+
+//- A binary file has no word to begin with, but the size that it says
+static string faultOfSTL(const fileName& path)
+{
+    string first;
+    IFstream(uncompressed(path))().getLine(first);
+    const bool solid =
+        first.find_first_not_of(" \t") != string::npos
+     && first.substr(first.find_first_not_of(" \t"), 5) == "solid";
+    return
+        !solid && (path.ext() == "gz" || faultOfBinarySTL(path).empty())
+      ? string() : faultOfTextSTL(path);
+}
+
+
 static string faultOf(const fileName& path, const triSurface& surface)
 {
     if (surface.empty())
@@ -197,6 +269,7 @@ Foam::autoPtr<Foam::triSurface> Foam::surfaceFile::read
     wrong =
         uncompressed(path).ext() == "obj" ? faultOfOBJ(path)
       : path.ext() == "stlb" ? faultOfBinarySTL(path)
+      : uncompressed(path).ext() == "stl" ? faultOfSTL(path)
       : string();
     if (!wrong.empty())
     {

@@ -45,6 +45,38 @@ def test_an_empty_surface_is_called_empty(tmp_path, text):
     assert "in.stl" in output and "empty" in output
 
 
+STL = {
+    "two coordinates": ("vertex 1 0 0", "vertex 1 0", "three numbers"),
+    "a byte between numbers": ("vertex 1 0 0", "vertex 1 0\xd00",
+                               "three numbers"),
+    "two corners": ("      vertex 1 0 0\n", "", "2 vertices"),
+    "no number": ("vertex 1 0 0", "vertex 1 b 0", "three numbers"),
+    "overflow": ("vertex 1 0 0", "vertex 1e400 0 0", "three numbers"),
+    "an unknown word": ("endfacet", "endfaced", "endfaced"),
+}
+
+
+@pytest.mark.parametrize("old, new, phrase", STL.values(), ids=STL)
+def test_a_wrong_line_of_a_text_stl_is_named(tmp_path, old, new, phrase):
+    case = surface(tmp_path)
+    file = case.path/"in.stl"
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1), encoding="latin-1")
+    output = case.run("morphSurface", "in.stl", "out.stl", status=1)
+    assert "in.stl, line " in output and phrase in output
+
+
+def test_an_stl_of_another_case_and_several_solids_is_read(tmp_path):
+    case = surface(tmp_path)
+    file = case.path/"in.stl"
+    text = file.read_text()
+    file.write_text("  " + text.upper().replace("SOLID A", "solid A", 1)
+                    + text.replace("solid a", "solid two words"))
+    output = case.run("morphSurface", "in.stl", "out.stl")
+    assert "Surface of 8 triangles" in output
+
+
 def test_a_binary_file_that_is_cut_is_refused(tmp_path):
     case = surface(tmp_path)
     file = case.path/"in.stlb"
