@@ -100,7 +100,9 @@ static bool writeCompressed
     const std::function<void(Ostream&)>& content
 )
 {
-    OStringStream os(option.format(), option.version());
+    OStringStream os;
+    os.format(option.format());
+    os.version(option.version());
     os.precision(IOstream::defaultPrecision());
     content(os);
     const std::string text(os.str());
@@ -119,11 +121,13 @@ static bool writePlain
     const std::function<void(Ostream&)>& content
 )
 {
-    OFstream os(path, option.format(), option.version());
+    OFstream os(path);
     if (!os.good())
     {
         return false;
     }
+    os.format(option.format());
+    os.version(option.version());
     os.precision(IOstream::defaultPrecision());
     content(os);
     os.flush();
