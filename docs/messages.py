@@ -88,6 +88,10 @@ def _end(text, start):
 
 def said(statement):
     """The words of a statement: its strings, ... for expressions, and lines."""
+    # A number of things, in the plural
+    statement = re.sub(
+        r'(?:plainText::)?counted\s*\([^;"]*?,\s*"([\w ]+)"\s*\)(?:\.c_str\(\))?',
+        r'"… \1s"', statement)
     text = ""
     for token in re.finditer(
             r'"((?:\\.|[^"\\])*)"|\b(nl|endl)\b|(\bexit\b|\babort\b)|[\w.:]+',

@@ -107,6 +107,7 @@ Usage
 #include "morphVersion.H"
 #include "motionLimiter.H"
 #include "motionRecord.H"
+#include "plainText.H"
 #include "throwing.H"
 #include "validFraction.H"
 
@@ -147,8 +148,8 @@ static void reportInvalid
         << "Of these the motion makes " << fraction.whole() << '.' << nl
         << "Nothing was written to the mesh. Move by less, or let the motion"
         << " reach further into the mesh (larger support radius, other"
-        << " diffusivity); what the motion does not make needs a better mesh"
-        << " to start from." << endl;
+        << " diffusivity). What was invalid before needs a better mesh to"
+        << " start from." << endl;
 
     if (fraction.stoppedBy() != validFraction::criterion::none)
     {
@@ -313,10 +314,12 @@ static bool morph(const argList& args)
         record.writeReport();
     }
 
-    Info<< nl << "Wall time [s]: reading " << readTime
-        << ", solver construction " << constructTime
-        << ", solve " << solveTime << ", check " << checkTime
-        << ", write " << showTime + clock.timeIncrement()
+    using plainText::rounded;
+    Info<< nl << "Wall time [s]: reading " << rounded(readTime).c_str()
+        << ", solver construction " << rounded(constructTime).c_str()
+        << ", solve " << rounded(solveTime).c_str()
+        << ", check " << rounded(checkTime).c_str()
+        << ", write " << rounded(showTime + clock.timeIncrement()).c_str()
         << nl << nl << (after.valid() ? "End" : motionLimiter::failed) << nl
         << endl;
 

@@ -53,9 +53,10 @@ static IOdictionary readDynamicMeshDict(const fvMesh& mesh)
         FatalErrorInFunction
             << "There is no dictionary "
             << mesh.time().relativePath(io.objectPath())
-            << ": it names the motion solver that morphMesh applies."
-            << " Write it, with the entries motionSolver and, for solvers of"
-            << " a library, motionSolverLibs" << exit(FatalError);
+            << ", or it has no FoamFile header. It names the motion solver"
+            << " that morphMesh applies: write it, with the header and the"
+            << " entries motionSolver and, for solvers of a library,"
+            << " motionSolverLibs" << exit(FatalError);
     }
 
     return IOdictionary(io);
@@ -119,7 +120,7 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
     if (!readScalar(name, value) || !finiteNumbers::usable(value))
     {
         FatalErrorInFunction
-            << "The option -time is '" << name << "', which is no number."
+            << "The option -time is '" << name << "', which is not a number."
             << " The times of this case are "
             << plainText::listed(timeNames(runTime)).c_str()
             << "; give one time, for example"
@@ -139,11 +140,10 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
     }
 
     runTime.setTime(value, 0);
-    Info<< "Time " << runTime.timeName() << " has no folder (there are "
-        << plainText::listed(timeNames(runTime)).c_str()
-        << "): the mesh is that of the time before,"
-        << " and a motion solver that reads a field from this time will stop."
-        << nl << endl;
+    Info<< "Time " << runTime.timeName() << " has no folder; those of the case"
+        << " are " << plainText::listed(timeNames(runTime)).c_str() << '.' << nl
+        << "The mesh is that of the preceding time. A motion solver that reads"
+        << " a field at this time will stop." << nl << endl;
 }
 
 

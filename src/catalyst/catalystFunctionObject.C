@@ -50,7 +50,8 @@ Foam::functionObjects::catalyst::~catalyst()
 
 void Foam::functionObjects::catalyst::readScripts(const dictionary& dict)
 {
-    // Python and its libraries divide by zero where nobody looks
+    // Python libraries raise harmless floating-point exceptions; suspend
+    // trapping
     const sigFpe::ignore ignoring;
 
     processor_ = vtkSmartPointer<vtkCPProcessor>::New();

@@ -17,7 +17,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// On the master the values of all ranks, one rank after the other
+// The values of all ranks in rank order, on the master only
 template<class Type>
 static List<Type> gathered(const List<Type>& mine)
 {

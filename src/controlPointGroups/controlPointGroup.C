@@ -146,7 +146,7 @@ Foam::wordList Foam::controlPointGroup::selectPatches()
             boundary.patchSet(wordRes(1, pattern), false, true)
         );
 
-        // On some ranks a processor patch may match what others do not have
+        // A pattern may match processor patches that exist on some ranks only
         bool found = false;
         for (const label patchi : these)
         {
@@ -300,7 +300,7 @@ void Foam::controlPointGroup::readNormal()
 
     if (isA<fixedNormalSlipPointPatchField<vector>>(condition))
     {
-        // It tells its normal to nobody but the file that it is written to
+        // The condition has no accessor: write it and read it back
         OStringStream written;
         condition.write(written);
         IStringStream entries(written.str());
@@ -319,7 +319,7 @@ void Foam::controlPointGroup::readSurface()
         return;
     }
 
-    // A file name has an extension, unlike the words there are
+    // A file name has an extension, the keywords have none
     const entry& e = *dict_.findEntry("surface");
     const token first(e.isStream() ? e.stream()[0] : token());
     const bool isFile =
@@ -347,8 +347,8 @@ void Foam::controlPointGroup::checkSurface()
     {
         FatalIOErrorInFunction(dict_)
             << "Both 'surface' and 'target' are given" << nl
-            << "    'surface' is what the points are on, 'target' what they are"
-            << " to be on instead: give one of them" << nl
+            << "    Give one of them: 'surface' is the surface that the points"
+            << " are on, 'target' another one to slide onto" << nl
             << exit(FatalIOError);
     }
     if (dict_.found("surface") || dict_.found("target"))
@@ -367,8 +367,8 @@ void Foam::controlPointGroup::checkSurface()
     if (slides() && (pointZones_.size() || listed_.size()))
     {
         FatalIOErrorInFunction(dict_)
-            << "A sliding group needs a surface to slide on, but 'points' and"
-            << " 'pointZones' have none" << nl
+            << "A sliding group needs a surface to slide on, which 'points'"
+            << " and 'pointZones' do not have" << nl
             << "    Select 'patches' or 'faceZones'" << nl
             << exit(FatalIOError);
     }
@@ -381,7 +381,7 @@ void Foam::controlPointGroup::checkDisplacement()
     if (given && role_ == role::fixed)
     {
         FatalIOErrorInFunction(dict_)
-            << "A fixed group has no 'displacement'" << nl
+            << "A fixed group cannot have a 'displacement'" << nl
             << "    Remove the entry, or make the group moving or sliding"
             << nl << exit(FatalIOError);
     }
@@ -537,7 +537,7 @@ Foam::labelList Foam::controlPointGroup::faces(boolList& flips) const
         const faceZone& zone = mesh_.faceZones()[zonei];
         forAll(zone, i)
         {
-            // Two ranks have the faces between them: one of them counts
+            // Faces on processor patches exist on two ranks: count them once
             const label patchi = mesh_.boundaryMesh().whichPatch(zone[i]);
             const auto* between =
                 patchi < 0
@@ -574,7 +574,7 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
         {
             message
                 << "Group '" << name_ << "': the prescribed displacement at "
-                << p.positions[i] << " is no finite number of metres: " << d[i]
+                << p.positions[i] << " is not finite: " << d[i]
                 << nl << "    Correct "
                 << (fromField() ? "pointDisplacement" : "'displacement'")
                 << " of this group";

@@ -100,9 +100,9 @@ void Foam::controlPointGroups::readGroups(const dictionary& dict)
         if (!e.isDict())
         {
             FatalIOErrorInFunction(dict)
-                << "Entry '" << e.keyword() << "' is no group of control points"
-                << nl << "    A group is a dictionary: " << e.keyword()
-                << " { type ...; patches (...); }" << nl
+                << "Entry '" << e.keyword() << "' is not a group of control"
+                << " points" << nl << "    A group is a dictionary: "
+                << e.keyword() << " { type ...; patches (...); }" << nl
                 << exit(FatalIOError);
         }
         append(new controlPointGroup(e.keyword(), e.dict(), mesh_));
@@ -197,11 +197,11 @@ void Foam::controlPointGroups::checkConditions
             FatalIOErrorInFunction(coeffs)
                 << "The pointDisplacement condition of patch '"
                 << patch.name() << "' has type '" << condition.type()
-                << "', which has no part in the motion" << nl
-                << "    Conditions that fix the value move points,"
-                << " slip and symmetry let them slide," << nl
-                << "    zeroGradient and calculated leave them free." << nl
-                << "    Use one of them, or say in 'controlPoints' which"
+                << "', which rbfMotionSolver cannot interpret" << nl
+                << "    Points move where the condition fixes the value, slide"
+                << " with slip and symmetry," << nl
+                << "    and are free with zeroGradient and calculated." << nl
+                << "    Use one of these, or list in 'controlPoints' which"
                 << " patches move, slide or are fixed" << nl
                 << exit(FatalIOError);
         }

@@ -14,8 +14,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// More than any displacement, for points whose displacement is not known yet;
-// its square is still a number
+// Larger than any displacement, for points whose displacement is not known yet;
+// can be squared
 static const vector unknown = vector::uniform(GREAT);
 
 } // End namespace Foam
@@ -114,9 +114,9 @@ void Foam::controlledPoints::findMembers()
 
 void Foam::controlledPoints::own()
 {
-    // The master of points that ranks share tells the others that they are
-    // slaves. Points coupled by a cyclic are different points, of which one
-    // copy each is no slave: those with one transformation are the same point
+    // Shared points have one master, the others are slaves. Points coupled by a
+    // cyclic are different points, each with one copy that is not a slave:
+    // those with the same transformation are the same point
     const globalMeshData& global = mesh_.globalData();
     const labelList& coupled = global.coupledPatch().meshPoints();
     const labelListList& slaves = global.globalPointSlaves();

@@ -12,7 +12,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Listed points this close to a mesh point, in units of the mesh's size, are it
+// Listed points closer to a mesh point than this, in units of the mesh's size,
+// are that point
 static const scalar samePlace = 1e-8;
 
 } // End namespace Foam
@@ -69,7 +70,7 @@ Foam::boolList Foam::listedControlPoints::firstAtPosition
             continue;
         }
 
-        // Listed in the order of the groups: the former is of the earlier one
+        // In the order of the groups: the first is in the earlier one
         first[i] = false;
         if (groupOf[i] == groupOf[former])
         {

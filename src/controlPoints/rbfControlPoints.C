@@ -67,7 +67,7 @@ morph::ControlPoint Foam::rbfControlPoints::condition
 {
     const morph::Vector3 position = toEigen(reduced_.plane().position(x));
 
-    // In a plane two directions are all there are
+    // In a plane there are only two directions
     const label dimensions = reduced_.plane().active() ? 2 : 3;
     if (!slides || normals.size() >= dimensions)
     {
@@ -527,7 +527,7 @@ void Foam::rbfControlPoints::impose
     const scalar fraction
 ) const
 {
-    // Where surfaces are half-way is not known
+    // Half-way positions of moving surfaces are not known
     const bool slide = slidingToo && (fraction >= 1 || surfacesStay());
     for (label i = 0; i < controlled_.size(); ++i)
     {

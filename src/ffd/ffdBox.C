@@ -20,7 +20,7 @@ namespace Foam
 
 using morph::Vector3;
 
-// Points this near to a face, in fractions of the box, are on it
+// Points closer to a face than this, in fractions of the box, are on it
 static const scalar onFace = 1e-8;
 
 
@@ -330,7 +330,7 @@ Foam::wordList Foam::ffdBox::offenders
     wordList names;
     for (const label i : order)
     {
-        // Where none does (a radius that becomes negative): all that act
+        // If none does (a negative radius): all parameters that act
         const bool contributes = worst == 0 || contributions[i] <= 0.1*worst;
         if (parameters_[i].value() != 0 && contributes)
         {
@@ -538,9 +538,9 @@ void Foam::ffdBox::checkFold() const
     const scalar safe = certificate.safeScale();
     FatalIOErrorInFunction(dict_)
         << "Box '" << name_ << "' folds: at (s t p) = " << toFoam(where)
-        << ", which is " << toFoam(settings_.frame->position(where)) << ","
+        << ", position " << toFoam(settings_.frame->position(where)) << ","
         << nl << "    the Jacobian determinant of its map is not positive."
-        << nl << "    Parameters that bring it about: "
+        << nl << "    Parameters that cause it: "
         << plainText::listed
            (
                offenders(certificate.where(), safe)

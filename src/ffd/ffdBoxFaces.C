@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "ffdBox.H"
 #include "eigenFields.H"
+#include "plainText.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -13,8 +14,8 @@ namespace Foam
 
 using morph::Vector3;
 
-// A line that moves by less than this across a face runs along it, in
-// fractions of the box
+// A line that crosses a face by less than this runs along it, in fractions of
+// the box
 static const scalar along = 1e-8;
 
 // What is this near to a face is on it, in fractions of the box or of a line
@@ -75,8 +76,8 @@ void Foam::ffdBox::addExit
     ffdExits& exits
 ) const
 {
-    // Lines of space are curved in some boxes: from as near to the exit as
-    // round-off allows they are straight
+    // Straight lines are curved in the coordinates of some boxes: close enough
+    // to the exit, as far as round-off allows, they are straight
     const morph::FfdFrame& frame = *settings_.frame;
     const Vector3 from = toEigen(a);
     const Vector3 line = toEigen(b) - from;
@@ -274,8 +275,12 @@ void Foam::ffdBox::checkFrozen(const ffdExits::faceFlags& shared)
                     << " the face " << ffdExits::faceName(face).c_str() << ","
                     << nl << "    where 'continuity "
                     << ffdBoxSettings::continuityNames[settings_.frozenLayers]
-                    << "' keeps " << settings_.frozenLayers
-                    << " layer(s) of control points at rest" << nl
+                    << "' freezes "
+                    << plainText::counted
+                       (
+                           settings_.frozenLayers, "layer"
+                       ).c_str()
+                    << " of control points" << nl
                     << "    Move points further inside, make the box larger"
                     << " than the mesh there (a face that is meant to lie on a"
                     << " wall has to reach it), or ask for less continuity"

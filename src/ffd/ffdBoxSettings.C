@@ -49,7 +49,7 @@ const Foam::wordList Foam::ffdBoxSettings::continuityNames
 namespace Foam
 {
 
-// The entries of all boxes; those of its frame are added
+// The entries that all boxes have, and those of the frame
 static void checkKeys(const dictionary& dict)
 {
     const wordList always
@@ -75,8 +75,8 @@ static void checkKeys(const dictionary& dict)
 }
 
 
-// The basis of a direction with L + 1 control points, of which the first and
-// the last of a ring are one
+// The basis of a direction with L + 1 control points; in a ring, the first and
+// the last coincide
 static morph::BSpline readBasis
 (
     const dictionary& dict,

@@ -526,7 +526,7 @@ Foam::tmp<Foam::vectorField> Foam::ffdBoxes::displacement()
     prepared_ = true;
     if (nStages_ == 1)
     {
-        // Only what acts on moved points asks for them again
+        // Only boxes that act on moved points need them again
         edges_.clear();
     }
     return total;

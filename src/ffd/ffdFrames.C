@@ -112,7 +112,8 @@ static std::shared_ptr<const morph::FfdFrame> readCylindrical
 {
     const vector axis(unitVector(dict, "axis"));
 
-    // Angle zero: as told, or the axis of space most normal to the cylinder's
+    // Angle zero: as given, or the coordinate axis most nearly normal to the
+    // axis
     vector radial(Zero);
     if (dict.found("direction"))
     {
@@ -175,12 +176,13 @@ static std::shared_ptr<const morph::FfdFrame> readCorners
     if (given.size() != 8)
     {
         FatalIOErrorInFunction(dict)
-            << "Entry 'corners' lists " << given.size()
-            << " points but has to list 8, in the order of blockMesh's hex"
-            << nl << exit(FatalIOError);
+            << "Entry 'corners' lists "
+            << plainText::counted(given.size(), "point").c_str()
+            << " but has to list 8, in the order of blockMesh's hex" << nl
+            << exit(FatalIOError);
     }
 
-    // hex goes around each of the two faces
+    // hex numbers the corners around each of two opposite faces
     const label places[] = {0, 1, 3, 2, 4, 5, 7, 6};
     std::array<Vector3, 8> corners;
     forAll(given, i)

@@ -49,7 +49,7 @@ static bool take(ffdBoxes& boxes, const scalarField& values)
     return !folds;
 }
 
-//- The points of some faces, without the others
+//- The points that belong to some faces
 struct compactFaces
 {
     labelList labels;

@@ -230,7 +230,8 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
     {
         WarningInFunction
             << "Points of symmetry patches are moved off their plane, by up to "
-            << normal << " m. They keep it; cells beside them may suffer." << nl
+            << normal << " m. They are kept in it; cells beside them may be"
+            << " distorted." << nl
             << "    Let the lattice move along the plane there" << endl;
     }
 
@@ -240,7 +241,7 @@ void Foam::ffdMotionSolver::constrain(vectorField& displacement) const
         WarningInFunction
             << "Coupled cyclic points are moved differently, by up to "
             << difference << " m. They take the mean of both sides; cells"
-            << " beside them may suffer." << nl
+            << " beside them may be distorted." << nl
             << "    Let the lattice move both sides alike" << endl;
     }
 }

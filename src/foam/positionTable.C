@@ -19,12 +19,12 @@ Foam::positionTable::positionTable(const pointField& points)
         return;
     }
 
-    // Not shared by the ranks: each may hold another list
+    // Not shared between ranks: each may hold a different list
     treeBoundBox box(points_);
     span_ = box.mag();
 
-    // A box without thickness cannot be divided, nor can one of a single
-    // point; ROOTVSMALL alone is lost beside the position
+    // An octree cannot divide a box without thickness, nor that of a single
+    // point; ROOTVSMALL alone vanishes beside the position
     const scalar magnitude = mag(box.min()) + mag(box.max());
     const vector room =
         vector::uniform(1e-3*span_ + 1e-6*magnitude + ROOTVSMALL);

@@ -15,7 +15,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Sine of the angle below which opposite normals are those of one plane
+// Sine of the angle below which opposite normals belong to one plane
 static const scalar opposite = 0.02;
 
 // Sine of the angle below which two edges of a face are nearly in line
@@ -65,8 +65,8 @@ Foam::vector Foam::surfaceNormals::rounded(const vector& total)
 
 Foam::vector Foam::surfaceNormals::withoutLastBits(vector v)
 {
-    // The factor keeps lengths off the powers of two, where the number of bits
-    // jumps
+    // The factor keeps lengths away from powers of two, where the spacing of
+    // numbers jumps
     const int exponent = 46 - std::ilogb(max(1.3*mag(v), VSMALL));
     for (scalar& component : v)
     {
@@ -123,8 +123,9 @@ Foam::vector Foam::surfaceNormals::cornerNormal
     const vector unit = area/mag(area);
     const vector between = (a ^ b)/size;
 
-    // Between two edges nearly in line there is no telling a corner of the face
-    // from one of the surface: the direction is that of the whole face
+    // Between two nearly collinear edges a corner of the face cannot be
+    // distinguished from one of the surface: use the direction of the whole
+    // face
     const scalar sine = mag(between);
     const vector n = sine > straight ? between : max(sine, 1e-6)*unit;
     return ((n & unit) < 0 ? -n : n)/size;
@@ -173,7 +174,7 @@ Foam::List<Foam::surfaceNormals::taggedNormal> Foam::surfaceNormals::distinct
         }
     }
 
-    // Those that the ones before do not imply, to within the angle
+    // Keep those that differ from the preceding ones by more than the angle
     DynamicList<taggedNormal> independent;
     DynamicList<vector> orthogonal;
     forAll(sum, i)

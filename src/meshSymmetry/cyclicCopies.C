@@ -16,7 +16,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Leaves what is exchanged as it is
+// Leaves exchanged values as they are
 struct untransformed
 {
     template<class Type>
@@ -202,7 +202,7 @@ Foam::List<Foam::vectorField> Foam::cyclicCopies::values
         all[i] = vectorField(copies_[i].size(), unknown);
         forAll(copies_[i], c)
         {
-            // Of ranks that share a copy some may not know: the smallest
+            // Some ranks that share a copy may not know: take the smallest
             vector value = unknown;
             for (label j = 0; j < pairs.size(); j += 2)
             {

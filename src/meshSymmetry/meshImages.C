@@ -22,17 +22,18 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Of the size of the mesh: planes are flat to within this, and coupled patches
-// on each other
+// Relative to the size of the mesh: planes are flat to within this, and coupled
+// patches coincide
 static const scalar flatness = 1e-5;
 static const scalar coincidence = 1e-3;
 
-// Angles closer to a fraction of a turn are it [rad]
+// Angles closer to a fraction of a turn count as equal [rad]
 static const scalar sameAngle = 1e-4;
 
 
-// To 40 bits of the size given: above the round-off that decompositions leave.
-// The factor keeps sizes off the powers of two, where the number of bits jumps
+// Rounds to 40 bits of the size, above the round-off of decompositions. The
+// factor keeps sizes away from powers of two, where the spacing of numbers
+// jumps
 static vector rounded(vector v, const scalar size)
 {
     const int exponent = 40 - std::ilogb(max(1.3*size, VSMALL));
@@ -47,7 +48,7 @@ static vector rounded(vector v, const scalar size)
 }
 
 
-// The first of the values that ranks have
+// The first of the values on the ranks
 template<class Type>
 static Type firstOf(const UList<Type>& mine, const Type& none)
 {

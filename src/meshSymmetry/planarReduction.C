@@ -13,8 +13,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Points this close to the axis of a wedge, in units of the mesh's size, are on
-// it
+// Points closer to the axis of a wedge than this, in units of the mesh's size,
+// are on it
 static const scalar samePlace = 1e-8;
 
 } // End namespace Foam
@@ -91,7 +91,7 @@ void Foam::planarReduction::findWedge
     const pointField& points
 )
 {
-    // Of each wedge patch a normal and a point, from the ranks that have faces
+    // A normal and a point of each wedge patch, from ranks with faces
     List<vectorField> planes(Pstream::nProcs());
     vectorField& mine = planes[Pstream::myProcNo()];
     for (const polyPatch& patch : mesh.boundaryMesh())

@@ -37,7 +37,7 @@ struct lastEqOp
 };
 
 
-//- Joins what it is told belongs together, on every rank the same
+//- Joins pairs into sets, the same on every rank
 static labelList joined(const label n, const UList<labelPair>& pairs)
 {
     List<labelList> all(Pstream::nProcs());
@@ -49,8 +49,8 @@ static labelList joined(const label n, const UList<labelPair>& pairs)
     }
     foamCompat::allGatherList(all);
 
-    // The least label that anything belongs to is found in as many passes as
-    // the longest chain of pairs has links
+    // The smallest label of each set is found in as many passes as its longest
+    // chain of pairs has links
     labelList least(identity(n));
     for (bool changed = true; changed;)
     {
@@ -126,7 +126,7 @@ void Foam::reducedMesh::findRegions()
         return;
     }
 
-    // Of each point the least region of its cells; cells that share the point
+    // The smallest region of each point's cells; cells that share a point
     // belong to one region
     const label none = labelMax;
     region_.setSize(mesh_.nPoints());
@@ -159,7 +159,7 @@ void Foam::reducedMesh::findRegions()
     }
     const labelList least(joined(split.nRegions(), pairs.sortedToc()));
 
-    // Numbered by where they are, whatever the ranks
+    // Numbered by position, independent of the ranks
     pointField first(least.size(), point::uniform(GREAT));
     pointField last(least.size(), point::uniform(-GREAT));
     forAll(region_, pointi)

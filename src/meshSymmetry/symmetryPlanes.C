@@ -16,14 +16,14 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Angle between faces of what is taken as one plane [rad]
+// Largest angle between faces of one plane [rad]
 static const scalar planar = 1e-3;
 
 // Between faces on either side of an edge
 static const scalar edgeAngle = degToRad(30);
 
 
-// Add what of n is independent of an orthonormal basis
+// Add the part of n that is independent of an orthonormal basis
 static void addDirection(List<vector>& basis, vector n)
 {
     for (const vector& b : basis)

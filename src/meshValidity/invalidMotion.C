@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "invalidMotion.H"
 #include "movedGeometry.H"
+#include "plainText.H"
 #include "syncTools.H"
 #include "Tuple2.H"
 
@@ -13,7 +14,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-//- A place and its rank among the places that are as bad
+//- A position, and its order among equally bad positions
 typedef Tuple2<scalar, point> rankedPoint;
 
 
@@ -26,7 +27,7 @@ struct lowerRankOp
 };
 
 
-//- What is not a number is worse than any volume
+//- Not a number is worse than any volume
 static inline scalar worth(const scalar volume)
 {
     return volume == volume ? volume : -VGREAT;
@@ -39,9 +40,10 @@ static inline label countAll(const bitSet& local)
 }
 
 
-//- The place of the smallest of the selected volumes of all ranks. In regular
-//  meshes several are the same but for round-off, which depends on the
-//  decomposition: of these the first in a direction that no mesh is aligned to
+//- The position of the smallest of the selected volumes over all ranks. In
+//  regular meshes several are equal up to round-off, which depends on the
+//  decomposition: of these, take the first along a direction that no mesh is
+//  aligned with
 static point worstOf
 (
     const bitSet& selected,
@@ -128,7 +130,7 @@ void Foam::invalidMotion::check
     bitSet faces(geometry::nonPositive(after.pyramidVolumes()));
     bitSet cells(geometry::nonPositive(after.cellVolumes()));
 
-    // All that a valid motion pays for
+    // A valid motion costs no more than this
     const label nLocal = faces.count() + cells.count();
     if (returnReduce(nLocal, sumOp<label>()) == 0)
     {
@@ -200,8 +202,9 @@ Foam::invalidMotion::invalidMotion
 
 Foam::Ostream& Foam::operator<<(Ostream& os, const invalidMotion& invalid)
 {
-    os  << invalid.nFaces_ << " wrongly oriented faces and "
-        << invalid.nCells_ << " cells without positive volume";
+    os  << plainText::counted(invalid.nFaces_, "wrongly oriented face").c_str()
+        << " and " << plainText::counted(invalid.nCells_, "cell").c_str()
+        << " without positive volume";
 
     if (!invalid.empty())
     {

@@ -16,7 +16,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-//- Lower bounds of so many equal bins
+//- Lower bounds of equal bins
 static scalarList equalBins(const label n, const scalar width)
 {
     scalarList from(n);
@@ -53,7 +53,7 @@ void Foam::meshQuality::checkCells
     const movedGeometry& geometry
 )
 {
-    // The openness is of no use here: a motion cannot open a cell
+    // Openness is not needed: a motion cannot open a cell
     scalarField openness;
     scalarField aspectRatio;
     primitiveMeshTools::cellClosedness

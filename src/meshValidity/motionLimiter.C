@@ -42,12 +42,16 @@ static void writeCellSet(const polyMesh& mesh, const bitSet& cells)
     set.instance() = mesh.facesInstance();
     set.write();
     Info<< "    Wrote cellSet " << set.name() << " with "
-        << returnReduce(set.size(), sumOp<label>()) << " cells to "
+        << plainText::counted
+           (
+               returnReduce(set.size(), sumOp<label>()), "cell"
+           ).c_str()
+        << " to "
         << set.instance()/set.local() << endl;
 }
 
 
-//- The faces of the cells, each cell's by itself, on points of their own
+//- Write the faces of each cell separately, with their own points
 static void writeCellFaces(const validFraction& fraction)
 {
     const polyMesh& mesh = fraction.mesh();
@@ -133,10 +137,10 @@ void Foam::motionLimiter::refuse
     FatalIOErrorInFunction(dict_)
         << "The motion makes the mesh invalid: " << fraction.whole() << nl
         << "    It is valid up to the fraction " << attainable
-        << " of it, where the first breaks at " << fraction.where() << nl
+        << " of it; the first cell breaks at " << fraction.where() << nl
         << "    The mesh is left as it was. " << remedy.c_str() << ';' << nl
         << "    'onInvalidMesh limit' moves the mesh as far as it goes,"
-        << " 'onInvalidMesh ignore' moves it all the same" << nl
+        << " 'onInvalidMesh ignore' moves it anyway" << nl
         << exit(FatalIOError);
 }
 
@@ -201,7 +205,7 @@ Foam::motionLimiter::limit Foam::motionLimiter::limitPart
     why << "It is valid up to " << attainable
         << ", where the first cell breaks at " << fraction.where() << " ("
         << validFraction::criterionNames[fraction.stoppedBy()]
-        << "); beyond, it makes " << fraction.whole();
+        << "); as a whole it makes " << fraction.whole();
     motionRecord* record = motionRecord::of(mesh_);
     if (record)
     {

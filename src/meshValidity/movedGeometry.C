@@ -54,7 +54,7 @@ Foam::scalarField Foam::movedGeometry::pyramidVolumes() const
             faceAreas_[facei]
           & (cellCentres_[nei[facei]] - faceCentres_[facei]);
 
-        // Unlike min() this does not lose what is not a number
+        // Unlike min() this keeps what is not a number
         if (!(other >= volumes[facei]) && volumes[facei] == volumes[facei])
         {
             volumes[facei] = other;
@@ -70,7 +70,7 @@ Foam::scalarField Foam::movedGeometry::syncedPyramidVolumes() const
 {
     scalarField volumes(pyramidVolumes());
 
-    // What is not a number would depend on the order of comparison
+    // With not-a-numbers the result would depend on the order of comparison
     for (scalar& volume : volumes)
     {
         if (volume != volume)

@@ -13,15 +13,14 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// A tetrahedron is flat if it is smaller than this, in the largest of its cell
+// A tetrahedron is flat below this fraction of the largest of its cell
 static const scalar flat = 1e-3;
 
-// Roots that are further apart than this are in an order that round-off cannot
-// change
+// Roots further apart than this cannot change order by round-off
 static const scalar clearance = 1e-9;
 
 
-//- The mean of the points, whatever their order
+//- The mean of the points, independent of their order
 template<class Labels>
 static point orderlessAverage(const pointField& points, const Labels& labels)
 {
@@ -132,8 +131,8 @@ Foam::scalar Foam::movingCells::positiveUpTo(const label celli) const
     scalar fraction = morph::noRoot;
     for (const morph::Cubic& volume : volumes_)
     {
-        // Beyond the first root so far by more than round-off, so that the
-        // order of the tetrahedra leaves no trace
+        // Skip what is beyond the first root so far by more than round-off, so
+        // that the result does not depend on the order of the tetrahedra
         const bool later =
             fraction <= 1
          && morph::surelyPositive(volume, (1 + clearance)*fraction);

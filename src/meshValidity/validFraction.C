@@ -28,20 +28,20 @@ namespace Foam
 {
 
 // The golden section: no mesh breaks at such a fraction by design, so that
-// round-off decides nowhere
+// round-off never decides
 static const scalar goldenSection = 0.6180339887498949;
 
 // The fraction by OpenFOAM's criterion is known to this, and where both
 // criteria agree to this, it is that of the tetrahedra
 static const scalar tolerance = 1e-6;
 
-// Sections after which it is known to it
+// Number of sections to reach that accuracy
 static const label nSections = 30;
 
-// Tells apart places that break at the same fraction; no mesh is aligned to it
+// Orders positions that break at the same fraction; no mesh is aligned with it
 static const vector obliqueDirection(1, 0.7548776662466927, 0.5698402909980532);
 
-//- A cell by what stops it: fraction, then place
+//- Orders cells by fraction, then position
 typedef Tuple2<scalar, Tuple2<scalar, point>> rankedCell;
 
 
@@ -210,7 +210,7 @@ Foam::scalar Foam::validFraction::withMargin() const
         return 1;
     }
 
-    // Less yet in the rare case that the mesh was invalid on the way
+    // Reduce further in the rare case that the mesh was invalid on the way
     scalar fraction = (1 - margin)*value_;
     for (label i = 0; i < nSections && !invalidAt(fraction).empty(); ++i)
     {

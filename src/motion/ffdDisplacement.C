@@ -77,8 +77,8 @@ void Foam::ffdDisplacement::setPoints(const points& p) const
     }
     positions_ = p.positions;
 
-    // Some ask for a few listed points of the group: only all of them tell
-    // whether a box has none
+    // A caller may ask for some of the listed points only; an empty box is an
+    // error only if all were given
     const bool onMesh = !p.meshPoints.empty() && max(p.meshPoints) >= 0;
     const bool whole =
         returnReduce(onMesh, orOp<bool>())

@@ -129,7 +129,7 @@ Foam::tmp<Foam::vectorField> Foam::fileDisplacement::unscaled
                 << "Entry 'file': control points of the group, for example "
                 << p.positions[i] << "," << nl << "    have no line in "
                 << dict().get<fileName>("file") << " within " << tolerance_
-                << " m of them" << nl
+                << " m" << nl
                 << "    Add a line for each, or raise 'tolerance'";
         }
     }

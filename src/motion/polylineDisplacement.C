@@ -37,9 +37,10 @@ Foam::polylineDisplacement::polylineDisplacement
     if (vertices_.size() < 2 || values_.size() != vertices_.size())
     {
         FatalIOErrorInFunction(dict)
-            << "Entry 'vertices' has " << vertices_.size()
-            << " positions and 'values' has " << values_.size()
-            << " displacements" << nl
+            << "Entry 'vertices' has "
+            << plainText::counted(vertices_.size(), "position").c_str()
+            << " and 'values' has "
+            << plainText::counted(values_.size(), "displacement").c_str() << nl
             << "    Give at least two vertices and one value for each" << nl
             << exit(FatalIOError);
     }

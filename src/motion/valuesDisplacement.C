@@ -45,9 +45,10 @@ Foam::valuesDisplacement::valuesDisplacement
     if (values_.size() != nListed)
     {
         FatalIOErrorInFunction(dict)
-            << "Entry 'values' has " << values_.size()
-            << " displacements, but the group lists " << nListed << " points"
-            << nl
+            << "Entry 'values' has "
+            << plainText::counted(values_.size(), "displacement").c_str()
+            << ", but the group lists "
+            << plainText::counted(nListed, "point").c_str() << nl
             << "    Give one displacement for each point" << nl
             << exit(FatalIOError);
     }

@@ -5,24 +5,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "motionSummary.H"
 #include "IOstreams.H"
+#include "plainText.H"
 
-#include <cstdio>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-// To three digits, whatever the precision of the log
-static string rounded(const scalar x)
-{
-    char digits[32];
-    std::snprintf(digits, sizeof(digits), "%.3g", x);
-    return digits;
-}
-
-} // End namespace Foam
-
+using Foam::plainText::counted;
+using Foam::plainText::rounded;
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -104,10 +90,10 @@ void Foam::motionSummary::write(Ostream& os, const word& solver) const
         motion += ofAll_[i];
     }
     const scalar run = run_.elapsedTime();
-    os  << nl << solver.c_str() << ": " << nSteps_ << " steps, "
-        << nSelections_ << (nSelections_ == 1 ? " selection, " : " selections, ")
-        << nSelected_ << " of " << nCandidates_
-        << (nCandidates_ == 1 ? " control point," : " control points,") << nl
+    os  << nl << solver.c_str() << ": "
+        << counted(nSteps_, "step").c_str() << ", "
+        << counted(nSelections_, "selection").c_str() << ", " << nSelected_
+        << " of " << counted(nCandidates_, "control point").c_str() << ',' << nl
         << "    largest error " << rounded(error_).c_str()
         << " m of a displacement of " << rounded(displacement_).c_str()
         << " m" << nl

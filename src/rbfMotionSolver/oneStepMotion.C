@@ -40,7 +40,7 @@ Foam::oneStepMotion::oneStepMotion
 
 void Foam::oneStepMotion::rebuild(const bool newRadius)
 {
-    // Directions that change from step to step are not known to a restart
+    // A restart does not know directions that change from step to step
     const bool restore =
         !newRadius && !problem_.controlPoints().surfacesMove();
     for (rbfField& field : fields_)
@@ -126,7 +126,7 @@ void Foam::oneStepMotion::makePart
     motion.fraction = fraction;
     if (problem_.controlPoints().follow())
     {
-        // A part of the way along its chord is off a curved surface
+        // A fraction of a displacement along its chord leaves a curved surface
         scalar part = fraction;
         for (label i = 0; i < mostTries; ++i)
         {

@@ -15,18 +15,18 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// How often directions are renewed, which is one selection each, for points
-// that go far around their surface: each brings some 60 degrees
+// Most renewals of directions, one selection each, for points that go far
+// around their surface: each is good for some 60 degrees
 static const label mostTurns = 3;
 
-// Directions of conditions are renewed where the cosine of the angle to those
-// of the surface is smaller. Before the selection that costs little, and where
-// they have turned by more than 18 degrees fewer points do; after it, it is
-// another selection, for the iteration, which converges like the tangent
+// Directions of conditions are renewed if their cosine with those of the
+// surface is smaller. Before the selection this is cheap, and beyond 18 degrees
+// it needs fewer points; after it, it costs another selection, and is done for
+// the convergence of the iteration
 static const scalar renewedCosine = 0.95;
 static const scalar turnedCosine = 0.8;
 
-// Of where points that slide go roughly, in largest displacements
+// Accuracy of estimated positions of sliding points, in largest displacements
 static const scalar roughTolerance = 1e-2;
 
 // Points that determine a linear map
@@ -90,7 +90,7 @@ void Foam::rbfField::alignDirections(morph::Communicator& communicator)
         return;
     }
 
-    // Where points go roughly, in planes tangential to their surfaces
+    // Estimates positions, in planes tangential to the surfaces
     morph::SelectionSettings rough;
     rough.tolerance = roughTolerance;
     morph::GreedySelection selection

@@ -13,7 +13,7 @@ namespace Foam
 {
 
 // Largest radius of the surface correction, in support radii: about the
-// distance of selected points, over which what they leave varies
+// distance between selected points, the length scale of the remaining error
 static const scalar correctionReach = 0.1;
 
 // An error above this part of the height of a first cell is one that the cell
@@ -153,8 +153,8 @@ Foam::rbfMotionProblem::change Foam::rbfMotionProblem::update
 
 bool Foam::rbfMotionProblem::moves(const label regioni) const
 {
-    // A body that is about to start moves by round-off, a pattern not worth
-    // control points
+    // A body about to start moves by round-off, which is not worth control
+    // points
     return
         inZone_[regioni]
      && radius() > 0
@@ -210,7 +210,7 @@ void Foam::rbfMotionProblem::constrain
     const scalar fraction
 ) const
 {
-    // Elsewhere images let coupled points move alike
+    // Otherwise images make coupled points move alike
     if (!images_.periodic())
     {
         reduced_.match(inPlane);

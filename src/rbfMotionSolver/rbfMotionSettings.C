@@ -6,7 +6,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "rbfMotionSettings.H"
 #include "dictionaryChecks.H"
 #include "DynamicList.H"
-#include "FlatOutput.H"
 #include "unitConversion.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -25,7 +24,7 @@ static const Enum<morph::Polynomial> polynomialNames
 });
 
 
-// One of the choices that the core has, by the name it has there
+// Read one of the core's choices by its name
 template<class Type>
 static Type readNamed
 (
@@ -52,7 +51,7 @@ static Type readNamed
 
     FatalIOErrorInFunction(dict)
         << "Entry '" << key << "': there is no " << key << " '" << name << "'"
-        << nl << "    Valid " << key << "s: " << flatOutput(names) << nl
+        << nl << "    Valid " << key << "s: " << plainText::listed(names).c_str() << nl
         << exit(FatalIOError);
     return deflt;
 }

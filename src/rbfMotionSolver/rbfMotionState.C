@@ -24,16 +24,17 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// A mesh that is written with six digits, the default, moves its points by no
-// more than this, in units of their largest coordinate
+// Writing a mesh with six digits, the default, moves its points by no more than
+// this, in units of their largest coordinate
 static const scalar writeTolerance = 1e-5;
 
 
-//- A position and how far it is from the one asked for
+//- A position, and its distance from the requested one
 typedef Tuple2<scalar, point> nearPosition;
 
 
-//- The nearer one; of two that are as near one that does not depend on ranks
+//- The nearer one; of two at the same distance, one that does not depend on the
+//  ranks
 struct nearerEqOp
 {
     void operator()(nearPosition& a, const nearPosition& b) const

@@ -4,8 +4,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "selectionReport.H"
+#include "plainText.H"
 #include "StringStream.H"
 #include "syncTools.H"
+
+using Foam::plainText::counted;
+using Foam::plainText::rounded;
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -25,13 +29,16 @@ Foam::selectionReport::selectionReport
 void Foam::selectionReport::summary(const morph::SelectionResult& result)
 {
     Info<< "rbfMotionSolver: selected " << label(result.selected)
-        << " of " << label(result.candidates)
-        << (result.candidates == 1 ? " control point" : " control points")
-        << ", largest error "
-        << result.largestError << " (tolerance " << result.tolerance
+        << " of "
+        << counted(label(result.candidates), "control point").c_str()
+        << ", largest error " << rounded(result.largestError).c_str()
+        << " (tolerance " << rounded(result.tolerance).c_str()
         << "), selection "
-        << result.sweepTime + result.listTime + result.solveTime << " s"
-        << endl;
+        << rounded
+           (
+               result.sweepTime + result.listTime + result.solveTime
+           ).c_str()
+        << " s" << endl;
 }
 
 
@@ -44,7 +51,7 @@ void Foam::selectionReport::warnOfTolerance
     const bool incomplete =
         result.rejected > 0 || result.renewals > 0 || !settings_.selection.all;
 
-    // Where points are on a surface is known to round-off
+    // Positions on a surface are known to round-off only
     const bool onSurface =
         result.renewals > 0
      && result.largestError < 1e-12*mesh_.bounds().mag();
@@ -53,9 +60,10 @@ void Foam::selectionReport::warnOfTolerance
         OStringStream why;
         if (result.rejected > 0)
         {
-            why << label(result.rejected) << " control points are too close"
-                << " to others for a support radius of " << supportRadius
-                << " m" << nl << "    Reduce the support radius";
+            why << counted(label(result.rejected), "control point").c_str()
+                << (result.rejected == 1 ? " is" : " are") << " too close to"
+                << " others for a support radius of "
+                << rounded(supportRadius).c_str() << " m" << nl << "    Reduce the support radius";
         }
         else if (result.selected >= settings_.selection.maxPoints)
         {
@@ -64,21 +72,24 @@ void Foam::selectionReport::warnOfTolerance
         }
         else
         {
-            why << "points that slide do not come nearer to their surface"
+            why << "sliding points do not come nearer to their surface"
                 << nl << "    Make the motion smaller, or the surface smoother:"
                 << " along an edge of it only its own points can slide";
         }
         WarningInFunction
-            << "The largest error, " << result.largestError
-            << " m, exceeds the tolerance of " << result.tolerance << " m: "
+            << "The largest error, " << rounded(result.largestError).c_str()
+            << " m, exceeds the tolerance of "
+            << rounded(result.tolerance).c_str() << " m: "
             << why.str().c_str() << endl;
     }
     if (result.roundOff > 0.1*result.tolerance)
     {
         WarningInFunction
-            << "Round-off of about " << result.roundOff << " m is not small"
-            << " against the tolerance of " << result.tolerance << " m" << nl
-            << "    Reduce the support radius (" << supportRadius
+            << "Round-off of about " << rounded(result.roundOff).c_str()
+            << " m is not small against the tolerance of "
+            << rounded(result.tolerance).c_str() << " m" << nl
+            << "    Reduce the support radius ("
+            << rounded(supportRadius).c_str()
             << " m), or raise greedy/tolerance" << endl;
     }
 }
@@ -90,8 +101,8 @@ void Foam::selectionReport::warnOfFirstCells
     const rbfMotion::selection& made
 )
 {
-    // Negative where there is no control point. Of points that ranks share one
-    // of them has the candidate
+    // Negative if there is no control point. Of shared points, one rank has the
+    // candidate
     scalarField error(mesh_.nPoints(), -1);
     const labelList& meshPoints =
         problem.controlPoints().candidates(made.region).meshPoints;
@@ -111,7 +122,7 @@ void Foam::selectionReport::warnOfFirstCells
     scalar worst = 0;
     word worstPatch;
 
-    // A tolerance this small would leave no error above a tenth of a height
+    // The tolerance that would leave no error above a tenth of a height
     scalar allowed = GREAT;
     for (label patchi = 0; patchi < firstCells_->nPatches(); ++patchi)
     {
@@ -145,7 +156,8 @@ void Foam::selectionReport::warnOfFirstCells
     {
         WarningInFunction
             << "At patch '" << worstPatch << "' the motion around the control"
-            << " points is off by " << worst << " heights of the first cell"
+            << " points is off by " << rounded(worst).c_str()
+            << " heights of the first cell"
             << nl << "    The patch itself moves exactly; the cells at it"
             << " would with 'surfaceCorrection yes'," << nl
             << "    or with greedy/tolerance "

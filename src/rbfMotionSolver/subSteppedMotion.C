@@ -39,7 +39,7 @@ morph::Vectors Foam::subSteppedMotion::reachedByCandidates
         problem_.controlPoints().candidates(regioni);
     const scalar fraction = scalar(motion.nMade)/motion.nSteps;
 
-    // Those off the mesh are prescribed
+    // Points off the mesh are prescribed
     morph::Vectors reached(candidates.size(), 3);
     forAll(candidates.meshPoints, i)
     {
@@ -86,7 +86,7 @@ void Foam::subSteppedMotion::addStep
         positions[i] += motion.inPlane[evaluated[i]];
     }
 
-    // On curved surfaces conditions turn with the points
+    // Conditions on curved surfaces turn with their points
     rbfControlPoints& controlPoints = problem_.controlPoints();
     const morph::Vectors reached = reachedByCandidates(regioni, motion);
     controlPoints.setDirections(regioni, reached);

@@ -12,12 +12,12 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Least factor by which a radius that follows the motion grows: every new
-// radius is a new selection
+// Smallest factor by which the radius grows: every new radius needs a new
+// selection
 static const scalar growth = 1.5;
 
-// Points that move by less than this, in largest displacements, rest: their
-// displacement is round-off, as of a point that slides along its wall
+// Points that move by less than this, in largest displacements, count as fixed:
+// their displacement is round-off
 static const scalar atRest = 1e-9;
 
 } // End namespace Foam

@@ -43,7 +43,7 @@ Foam::slidingSurface::contact Foam::cylinderSurface::nearest
     vector r = x - origin_ - along*axis_;
     if (mag(r) < SMALL*radius_)
     {
-        // On the axis every direction is as near
+        // On the axis every direction is equally near
         r = axis_ ^ (mag(axis_.x()) < 0.7 ? vector(1, 0, 0) : vector(0, 1, 0));
     }
     const vector n = r/mag(r);

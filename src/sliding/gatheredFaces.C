@@ -17,7 +17,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// The same face, seen from its least vertex
+// The same face, starting at its smallest vertex
 static face rotated(const labelUList& f)
 {
     const label n = f.size();
@@ -31,8 +31,8 @@ static face rotated(const labelUList& f)
 }
 
 
-// Cosine of the angle by which the surface turns at an edge. Faces that run through the edge
-// in one direction have opposite orientations
+// Cosine of the angle by which the surface turns at an edge. Faces that
+// traverse the edge in the same direction have opposite orientations
 static scalar cosineAcross
 (
     const edge& e,
@@ -49,8 +49,7 @@ static scalar cosineAcross
 }
 
 
-// Numbers components that are joined pairwise, in the order of their first
-// members
+// Numbers connected components in the order of their first members
 class components
 {
     labelList parent_;
@@ -125,7 +124,7 @@ void Foam::gatheredFaces::gather
     const labelList& tags
 )
 {
-    // Of every rank: positions, faces by their places among these, and tags
+    // From every rank: positions, faces as indices into these, and tags
     const label rank = Pstream::myProcNo();
     List<pointField> allPoints(Pstream::nProcs());
     List<faceList> allFaces(Pstream::nProcs());
@@ -156,7 +155,7 @@ void Foam::gatheredFaces::gather
     labelList vertex;
     mergePoints(allPoints, vertex);
 
-    // Faces in the numbers of the vertices, from the least one on, and sorted
+    // Faces as vertex indices, each starting at the smallest, and sorted
     DynamicList<face> gathered;
     DynamicList<label> gatheredTags;
     label start = 0;
@@ -204,7 +203,7 @@ void Foam::gatheredFaces::gather
         }
     );
 
-    // Of the two sides of a baffle one counts
+    // Count only one of the two sides of a baffle
     std::map<std::vector<label>, label> known;
     DynamicList<face> distinct;
     DynamicList<label> distinctTags;
@@ -281,7 +280,7 @@ Foam::gatheredFaces::facesAtEdges() const
 
 void Foam::gatheredFaces::alignDirections()
 {
-    // Faces of a zone may be oriented at random: outwards from the first one
+    // Faces of a zone may be oriented at random: orient them like the first one
     const auto at = facesAtEdges();
     boolList visited(faces_.size(), false);
     forAll(faces_, start)
@@ -424,8 +423,8 @@ Foam::triSurface Foam::gatheredFaces::smoothPatch
     const pointField& points
 ) const
 {
-    // Polygons fall apart into triangles around their centres, which do not
-    // depend on where a polygon begins
+    // Split polygons into triangles around their centres, which do not depend
+    // on where a polygon starts
     DynamicList<point> x;
     DynamicList<labelledTri> triangles;
     Map<label> place;

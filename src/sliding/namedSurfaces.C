@@ -10,8 +10,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// A point may be this far from a surface that it is on, in the size of its
-// faces, and this far from one it is to slide onto, in the span of its group
+// Largest distance of a point from the surface it is on, in face sizes, and
+// from one that it is to slide onto, in spans of its group
 static const scalar onSurface = 0.5;
 static const scalar nearTarget = 0.5;
 
@@ -139,7 +139,7 @@ void Foam::namedSurfaces::checkDistances(const gatheredFaces& faces) const
           ? nearTarget*extent(faces, groupi).mag()
           : onSurface*largestEdge(faces, groupi);
 
-        // Every rank has all vertices, and finds the same
+        // Every rank has all vertices and gets the same result
         point where(Zero);
         const scalar largest = largestDistance(faces, groupi, where);
         if (largest > allowed)

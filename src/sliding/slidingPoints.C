@@ -14,11 +14,11 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Directions of conditions are kept while the cosine of the angle to the
-// surface's normal is larger
+// Directions of conditions are kept while their cosine with the surface's
+// normal is larger
 static const scalar keptCosine = 0.9;
 
-// Steps of the last projection onto surfaces, which takes about three
+// Most steps of the final projection onto surfaces, which takes about three
 static const label mostSteps = 30;
 
 
@@ -127,7 +127,7 @@ void Foam::slidingPoints::findWhoFollows()
 
 void Foam::slidingPoints::findOffsets()
 {
-    // Of a surface that the points are said to be on, but for the digits of
+    // Distance that is kept from a surface that points are on: the round-off of
     // numbers in files
     offsets_.setSize(controlled_.size(), FixedList<scalar, 2>(Zero));
     forAll(present_, i)
@@ -349,7 +349,7 @@ morph::TangentPlanes Foam::slidingPoints::planes
         const smoothPatch& sh = smoothPatches_[present_[i][j].surface];
         if (sh.planar || folded)
         {
-            // Through where the surface has taken the point
+            // Through the point that the surface has moved the point to
             const vector& n = folded ? present_[i][j].normal : sh.normal;
             const vector d =
                 plane_.reduce(x, smoothPatches_.vertices(sh)[vertex_[i]] - x);
@@ -393,7 +393,7 @@ Foam::vector Foam::slidingPoints::onto(const label i, const vector& s) const
         }
     }
 
-    // As long as it gets nearer
+    // While it gets nearer
     vector d = s;
     scalar former = GREAT;
     for (label step = 0; step < mostSteps; ++step)

@@ -79,7 +79,7 @@ Foam::smoothPatchNormals::ofFaces() const
 
     const gatheredFaces& faces = smoothPatches_.faces();
 
-    // Two lists for one communication each: normals are turned at cyclics
+    // One list per communication: cyclics rotate the normals
     List<List<vector>> around(controlled_.size());
     List<labelList> patchesAround(controlled_.size());
     forAll(smoothPatches_.myFaces(), facei)
@@ -135,7 +135,7 @@ Foam::smoothPatchNormals::distinct
     const List<labelList>& patchesAround
 ) const
 {
-    // A rotational cyclic leaves round-off that depends on who asks
+    // A rotational cyclic leaves round-off that depends on the side
     bool turned = false;
     for (const polyPatch& patch : mesh_.boundaryMesh())
     {
@@ -242,7 +242,7 @@ bool Foam::smoothPatchNormals::fixed
     const List<surfaceNormals::taggedNormal>& normals
 ) const
 {
-    // In a plane two directions are all there are
+    // In a plane there are only two directions
     return normals.empty() || normals.size() >= (plane_.active() ? 2 : 3);
 }
 

@@ -14,13 +14,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// A smooth patch is planar where no face is tilted by more than this [rad]: meshes
-// written with six digits have not quite flat planes
+// A smooth patch is planar if no face is tilted by more than this [rad]: planes
+// of meshes written with six digits are not quite flat
 static const scalar planarAngle = 1e-3;
 
 
-// In a wedge normals are those at one of its sides, where the points are; not
-// that between them, in the middle of a face. On the axis there is none
+// In a wedge use the normals at one of its sides, where the points are, not
+// those in the middle of a face. On the axis there is none
 static const point& outermost
 (
     const face& f,
@@ -76,8 +76,8 @@ Foam::smoothPatches::smoothPatches
 
 void Foam::smoothPatches::gatherFaces()
 {
-    // Smooth patches go on from one group to the next where both are at rest, and what
-    // they are is left to the faces
+    // Smooth patches continue from one group to the next if both are at rest
+    // and neither says what its surface is
     const label common = groups_.size();
     labelList families(identity(groups_.size()));
     DynamicList<label> faces, tags;
@@ -151,7 +151,7 @@ bool Foam::smoothPatches::displace()
             group.displacement({positions, members, listed})
         );
 
-        // Every rank needs all of them, whichever has them
+        // Every rank needs all of them
         List<labelList> allVertices(Pstream::nProcs());
         List<pointField> allPositions(Pstream::nProcs());
         labelList& myVertices = allVertices[Pstream::myProcNo()];

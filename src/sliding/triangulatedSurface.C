@@ -11,7 +11,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
-// Barycentric coordinates less than this are zero
+// Barycentric coordinates below this count as zero
 static const scalar onEdge = 1e-9;
 
 
@@ -145,7 +145,7 @@ Foam::slidingSurface::contact Foam::triangulatedSurface::nearest
     const point& c = hit.hitPoint();
     const triPointRef triangle(surface_[i].tri(surface_.points()));
 
-    // Barycentric coordinates as shares of the area
+    // Barycentric coordinates are fractions of the area
     const vector area = triangle.areaNormal();
     const scalar size = max(magSqr(area), VSMALL);
     FixedList<scalar, 3> w;

@@ -434,7 +434,7 @@ def nothing(case):
 
 WRONG = {
     "time is no number":
-        (nothing, ("-time", "soon"), ["-time is 'soon'", "no number"]),
+        (nothing, ("-time", "soon"), ["-time is 'soon'", "not a number"]),
     "time without the fields of the solver":
         (nothing, ("-time", "7"), ["Time 7 has no folder",
                                    "pointDisplacement"]),

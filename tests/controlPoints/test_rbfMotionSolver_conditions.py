@@ -146,7 +146,7 @@ def test_a_condition_without_a_part_is_an_error_that_says_so(tmp_path, ranks):
     output = case.run("moveDynamicMesh", ranks=ranks, status=1)
     assert case.tree() == before
     for phrase in ("pointDisplacement", "'zMin'", "surfaceSlipDisplacement",
-                   "has no part in the motion", "controlPoints"):
+                   "rbfMotionSolver cannot interpret", "controlPoints"):
         assert phrase in output
 
 

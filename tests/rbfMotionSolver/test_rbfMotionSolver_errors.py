@@ -108,11 +108,11 @@ COEFFICIENTS = {
        for value in ("nan", "inf")},
     "displacement 1e200": (
         top("type uniform; value (0 0 1e200);"),
-        ["prescribed displacement", "no finite number", "e+199"]),
+        ["prescribed displacement", "not finite", "e+199"]),
     "scale 1e200": (
         top("type values; values ((0 0 0.1)); scale 1e200;",
             "points ((0.4 0.4 0.4));"),
-        ["prescribed displacement", "no finite number", "e+199"]),
+        ["prescribed displacement", "not finite", "e+199"]),
 
     # --- entries that contradict each other
     "two support radii": (
@@ -126,13 +126,13 @@ COEFFICIENTS = {
         ["'polynomial'", "thinPlate", "Use 'polynomial linear'"]),
     "too few values": (
         top("type values; values ((0 0 0.1));", "points ((1 1 1) (0 0 1));"),
-        ["'values'", "1 displacements", "2 points", "one displacement for"]),
+        ["'values'", "1 displacement", "2 points", "one displacement for"]),
     "values for a patch": (
         top("type values; values ((0 0 0.1));"),
         ["'values'", "lists 'points'", "'file'"]),
     "polyline lengths": (
         top("type polyline; vertices ((0 0 1) (1 0 1)); values ((0 0 0.1));"),
-        ["'vertices'", "2 positions", "'values'", "1 displacements"]),
+        ["'vertices'", "2 positions", "'values'", "1 displacement"]),
     "polyline of one vertex": (
         top("type polyline; vertices ((0 0 1)); values ((0 0 0.1));"),
         ["'vertices'", "at least two"]),
@@ -149,7 +149,7 @@ COEFFICIENTS = {
         ["sliding", "'points'", "Select 'patches' or 'faceZones'"]),
     "fixed points that move": (
         groups(top=TOP, bottom=BOTTOM + UP),
-        ["fixed", "no 'displacement'", "Remove the entry"]),
+        ["fixed", "cannot have a 'displacement'", "Remove the entry"]),
     "surface of what does not slide": (
         groups(top=TOP + "surface planar;"),
         ["'surface'", "sliding", "moving"]),
@@ -176,7 +176,7 @@ COEFFICIENTS = {
     "groups as a list": (
         "controlPoints (zMax);", ["'controlPoints'", "dictionary of groups"]),
     "group that is none": (
-        "controlPoints { top zMax; }", ["'top'", "is no group", "type"]),
+        "controlPoints { top zMax; }", ["'top'", "is not a group", "type"]),
     "greedy that is none": (
         with_top("greedy 1e-3;"), ["'greedy'", "has to be a dictionary"]),
     "displacement that is none": (
@@ -283,7 +283,7 @@ def test_no_field_and_no_dictionary_is_an_error(tmp_path, ranks):
 
 @pytest.mark.parametrize("value, phrases", [
     ("nan", ["boundaryField.zMax.value", "expected scalar"]),
-    ("1e200", ["prescribed displacement", "no finite number", "e+199",
+    ("1e200", ["prescribed displacement", "not finite", "e+199",
                "Correct pointDisplacement"])])
 def test_a_condition_that_gives_no_number_is_an_error(tmp_path, value,
                                                       phrases):

@@ -41,7 +41,7 @@ def test_no_control_point_is_off_by_more_than_the_tolerance(tmp_path,
     case, largest = wavy(tmp_path, f"greedy {{ tolerance {tolerance}; }}")
     (selected, candidates, error, allowed), = selections(
         case.run("moveDynamicMesh"))
-    assert allowed == pytest.approx(tolerance*largest, rel=1e-5)
+    assert allowed == pytest.approx(tolerance*largest, rel=5e-3)  # 3 digits
     assert error <= allowed
     assert selected < candidates
     # All points of the boundary: every patch has a part
@@ -254,5 +254,5 @@ def test_points_that_even_selection_all_leaves_out_are_announced(tmp_path):
              " values ((0 0 0.01) (0 0 0.012)); }",
         rest='type fixed; patches (".*");'))
     output = case.run("moveDynamicMesh")
-    assert "1 control points are too close" in output
+    assert "1 control point is too close" in output
     assert "Reduce the support radius" in output

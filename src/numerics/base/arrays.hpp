@@ -19,8 +19,8 @@ using Vector3 = Eigen::Vector3d;
 
 using Matrix = Eigen::MatrixXd;
 
-// n vectors as rows, one after the other in memory: the layout of OpenFOAM's
-// pointField, so that one can be mapped onto the other without a copy
+// n vectors as rows, contiguous in memory: the layout of OpenFOAM's pointField,
+// which can be mapped without a copy
 using Vectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 // n vectors as three contiguous columns: the layout of vectorised loops

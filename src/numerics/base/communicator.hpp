@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The collective operations that selection needs. Candidates stay on the rank
-// that has them; what is selected is known to all.
+// The collective operations that selection needs. Candidates stay on their
+// rank; selected points are known to all ranks.
 
 #ifndef morph_communicator_hpp
 #define morph_communicator_hpp
@@ -12,8 +12,8 @@
 namespace morph
 {
 
-// All operations are collective: every rank calls them in the same order, also
-// a rank without points.
+// All operations are collective: every rank, also one without points, calls
+// them in the same order.
 class Communicator
 {
 public:
@@ -24,17 +24,16 @@ public:
 
     virtual int size() const = 0;
 
-    // The values of all ranks, in the order of the ranks
+    // The values of all ranks, in rank order
     virtual std::vector<double> gather(const std::vector<double>& mine) = 0;
 
     // The largest value of all ranks
     virtual double max(double value) = 0;
 
-    // The sum over all ranks of each entry; the lists have one length
+    // The sum over all ranks of each entry; all lists have the same length
     virtual std::vector<double> sum(const std::vector<double>& mine) = 0;
 
-    // How many collective operations there were, and how many bytes this rank
-    // received by them
+    // Number of collective operations so far, and bytes that this rank received
     long operations() const { return operations_; }
     double bytes() const { return bytes_; }
 

@@ -37,7 +37,7 @@ void requireMemory
     Communicator& communicator
 )
 {
-    // Ranks may share a node: that all of them do is the safe assumption
+    // Ranks may share a node; assume that all of them do
     const double needed = communicator.sum({bytes})[0];
     const double available = -communicator.max(-availableMemory());
     if (needed > 0.9*available)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Refusing what would not fit into memory.
+// Refuses what does not fit into memory.
 
 #ifndef morph_memory_hpp
 #define morph_memory_hpp
@@ -13,11 +13,11 @@
 namespace morph
 {
 
-// Memory that a program may still take without others being thrown out [B]
+// Memory that is available without swapping [B]
 double availableMemory();
 
-// Throws std::runtime_error on all ranks if the bytes that the ranks ask for on
-// this rank's node are not there. Collective. what: "<thing>", for the message.
+// Throws std::runtime_error on all ranks if the bytes requested by all ranks
+// are not available. what: name of the data, for the message. Collective.
 void requireMemory
 (
     double bytes,

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// One binary for every x86-64 machine: functions so marked are compiled for
-// several instruction sets and the best is chosen when the library is loaded.
+// One binary for every x86-64 machine: marked functions are compiled for
+// several instruction sets, and the best is chosen when the library is loaded.
 
 #ifndef morph_multiVersion_hpp
 #define morph_multiVersion_hpp

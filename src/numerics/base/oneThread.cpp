@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// OpenBLAS on one thread, whichever of its variants is installed.
+// Runs OpenBLAS on one thread, whichever variant is installed.
 //
-// Each rank is a process of its own: threads of a BLAS would compete for the
-// cores of the other ranks, and the bits of a result would depend on how many
-// of them there are.
+// Each rank is a process: BLAS threads would compete for the cores of other
+// ranks, and results would depend on their number to the last bits.
 
 #ifdef EIGEN_USE_BLAS
 
@@ -26,7 +25,7 @@ bool useOneThread()
     return true;
 }
 
-// When the library is loaded, before anything is computed
+// Runs when the library is loaded, before anything is computed
 const bool oneThread __attribute__((used)) = useOneThread();
 
 } // namespace

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Exponential and logarithm in plain arithmetic, so that loops over them
-// vectorise with any instruction set. The C library's are calls.
+// vectorise with any instruction set; those of the C library are function
+// calls.
 
 #ifndef morph_vectorMath_hpp
 #define morph_vectorMath_hpp

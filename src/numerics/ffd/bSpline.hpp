@@ -14,11 +14,11 @@
 namespace morph
 {
 
-// The functions N_i of n control points. Clamped: the first and the last knot
-// have multiplicity degree + 1 and the others divide [0,1] evenly; with degree
-// n - 1 these are the Bernstein polynomials. Periodic: all knots are simple,
-// N_i has its middle at i/n (degree odd; half a knot further otherwise) and
-// control point n is control point 0.
+// The basis functions N_i of n control points. Clamped: the first and the last
+// knot have multiplicity degree + 1, and the others divide [0,1] evenly; with
+// degree n - 1 these are the Bernstein polynomials. Periodic: all knots are
+// simple, N_i has its middle at i/n (degree odd; half a knot further otherwise)
+// and control point n is control point 0.
 class BSpline
 {
 public:
@@ -47,16 +47,16 @@ public:
     // Where a span begins; spanStart(spans()) is 1
     double spanStart(Index span) const;
 
-    // The span that s lies in; s is taken into [0,1]
+    // The span that contains s; s is clamped to [0,1] or wrapped into it
     Index spanOf(double s) const;
 
-    // Values of the degree + 1 functions that are not zero at s, which is
-    // taken into [0,1], and their derivatives if asked for. Returns the number
-    // of the first one in extended numbering: see control()
+    // Values of the degree + 1 functions that are not zero at s (clamped or
+    // wrapped), and their derivatives if requested. Returns the extended number
+    // of the first one: see control()
     Index values(double s, double* row, double* derivatives = nullptr) const;
 
-    // Functions in extended numbering: those of a periodic basis that reach
-    // over the seam count anew
+    // Number of functions in extended numbering, in which those of a periodic
+    // basis that cross the seam are counted again
     Index extendedSize() const;
 
     // The control point of a function in extended numbering

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The boxes of free-form deformation: where a point of space is in the box, and
-// what a displacement of the lattice is in space.
+// The boxes of free-form deformation: coordinates of a point in the box, and
+// the displacement in space that a displacement of the lattice causes.
 
 #ifndef morph_ffdFrame_hpp
 #define morph_ffdFrame_hpp
@@ -26,14 +26,14 @@ public:
 
     virtual ~FfdFrame() = default;
 
-    // A point of space as xi, also where it is outside. Where there is no
-    // answer, not a number
+    // Box coordinates xi of a point, also outside the box; not a number if
+    // there are none
     virtual Vector3 coordinates(const Vector3& x) const = 0;
 
-    // A point of the box in space [m]
+    // Position of box coordinates in space [m]
     virtual Vector3 position(const Vector3& xi) const = 0;
 
-    // What x moves by if the lattice displaces it by d
+    // Displacement of x if the lattice displaces it by d
     virtual Vector3 displacement(const Vector3& x, const Vector3& d) const;
 
     // The derivative of displacement by d
@@ -71,10 +71,10 @@ public:
         const Vector3& fractions
     ) const;
 
-    // By a vector along the axes of the box in the units of its span
+    // The same for a vector along the axes of the box in the units of its span
     virtual Vector3 fromUnits(const Vector3& vector) const = 0;
 
-    // Does [0,1] of the second coordinate close to a ring?
+    // Is the second coordinate periodic, so that the box is a ring?
     virtual bool ring() const { return false; }
 
     // Is the first coordinate a radius?
@@ -188,7 +188,7 @@ public:
     // std::invalid_argument unless the map is one to one
     explicit HexahedralFrame(const std::array<Vector3, 8>& corners);
 
-    // By Newton's method; not a number where it leads nowhere
+    // By Newton's method; not a number if it does not converge
     Vector3 coordinates(const Vector3& x) const override;
     Vector3 position(const Vector3& xi) const override;
     Eigen::Matrix3d gradient(const Vector3& x) const override;

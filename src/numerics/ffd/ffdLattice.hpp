@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A control lattice: the displacement of points by that of its control points.
+// A control lattice: the displacement of points by its control points.
 
 #ifndef morph_ffdLattice_hpp
 #define morph_ffdLattice_hpp
@@ -17,8 +17,8 @@
 namespace morph
 {
 
-// What the displacement of points needs of their positions: three short rows
-// of basis values per point
+// Depends on the positions of points: three short rows of basis values per
+// point
 struct LatticeRows
 {
     // Number of points

@@ -13,7 +13,7 @@ namespace morph
 namespace
 {
 
-// Halvings after which a question counts as answered by no
+// Halvings after which the answer is no
 const int mostHalvings = 4000;
 
 // And the operations that they may take altogether
@@ -92,7 +92,7 @@ std::array<TensorPolynomial, 4> cubic(std::array<TensorPolynomial, 4> f)
 }
 
 
-// The direction in which halving does most
+// The direction in which halving helps most
 int steepest(const TensorPolynomial& polynomial)
 {
     int direction = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Does the map of a control lattice fold, and how far may it go?
+// Does the map of a control lattice fold, and up to which scale does it not?
 
 #ifndef morph_foldCertificate_hpp
 #define morph_foldCertificate_hpp
@@ -15,20 +15,20 @@
 namespace morph
 {
 
-// The map is xi -> X(xi) + t d(xi), with X the box and d the displacement of the
-// lattice, both in coordinates of the frame. Its Jacobian determinant is, in
-// each knot span, a Bernstein polynomial in xi and of third degree in the scale
-// t. Positive coefficients certify that it is positive; where they do not
-// decide, the span is halved.
-// With weights the map is X + t N/W, and W^4 times its determinant is that of
-// the matrix of four rows [W, grad W] and [t N_i, W grad X_i + t grad N_i].
-// In cylindrical boxes the radius has to remain positive as well.
+// The map is xi -> X(xi) + t d(xi), with X the box and d the displacement of
+// the lattice, both in coordinates of the frame. Its Jacobian determinant is,
+// in each knot span, a Bernstein polynomial in xi and of third degree in the
+// scale t. Positive coefficients certify that it is positive; where they do not
+// decide, the span is halved. With weights the map is X + t N/W, and W^4 times
+// its determinant is that of the matrix of four rows [W, grad W] and [t N_i, W
+// grad X_i + t grad N_i]. In cylindrical boxes the radius must remain positive
+// as well.
 class FoldCertificate
 {
 public:
 
-    // control: displacements of the control points in coordinates of the
-    // frame. Frame and lattice are referred to
+    // control: displacements of the control points in coordinates of the frame.
+    // Keeps references to frame and lattice
     FoldCertificate
     (
         const FfdFrame& frame,
@@ -44,7 +44,7 @@ public:
     // tolerance from below
     double safeScale(double tolerance = 1e-4);
 
-    // Where in the box the last question was decided
+    // Box coordinates at which the last question was decided
     const Vector3& where() const { return where_; }
 
 private:

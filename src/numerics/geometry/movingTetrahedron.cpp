@@ -58,7 +58,7 @@ bool surelyPositive(const Cubic& p, const double end)
 }
 
 
-// The quotient, or 1 if it is not in (0, 1): without dividing by zero, which
+// The quotient, or 1 if it is not in (0, 1); never divides by zero, which
 // OpenFOAM traps
 static double inside(const double numerator, const double denominator)
 {

@@ -22,7 +22,7 @@ namespace morph
 // Bernstein coefficients of a cubic on [0, 1]
 using Cubic = std::array<double, 4>;
 
-// Returned where there is no root: more than any fraction
+// Returned if there is no root; larger than any fraction
 constexpr double noRoot = 2;
 
 
@@ -42,8 +42,8 @@ Cubic movingVolume
 );
 
 
-// Do the Bernstein coefficients on [0, end] alone tell that the cubic is positive
-// there? That needs no root
+// Do the Bernstein coefficients alone show that the cubic is positive on [0,
+// end]? Needs no root
 bool surelyPositive(const Cubic& p, double end);
 
 
@@ -52,9 +52,9 @@ double value(const Cubic& p, double t);
 
 
 // The largest t in [0, 1] up to which the cubic is positive, to the last bits,
-// where it has a root in (0, 1]; noRoot where it has none there. A cubic that
-// is not positive at t = 0 was wrong before anything moved and has no root;
-// one with a coefficient that is no number gives 0.
+// if it has a root in (0, 1], otherwise noRoot. A cubic that is not positive at
+// t = 0 was invalid before the motion and counts as without a root; one with a
+// coefficient that is not a number gives 0.
 double positiveUpTo(const Cubic& p);
 
 } // End namespace morph

@@ -18,8 +18,8 @@ struct SurfaceMeasures
     double area = 0;                           // [m^2]
     Vector3 areaCentroid = Vector3::Zero();    // of the surface [m]
 
-    // Of what a closed surface with normals outwards encloses; for an open one
-    // they depend on the origin of the positions
+    // Of the body inside a closed surface with outward normals; for an open
+    // surface they depend on the origin
     double volume = 0;                         // [m^3]
     Vector3 volumeCentroid = Vector3::Zero();  // [m]
 };
@@ -43,7 +43,7 @@ SurfaceMeasures surfaceMeasuresDerivative
     const Vectors& velocities
 );
 
-// Has every edge of the triangles two of them, with opposite directions?
+// Does every edge belong to two triangles with opposite directions?
 bool isClosed(const Triangles& triangles);
 
 } // namespace morph

@@ -12,14 +12,14 @@
 namespace morph
 {
 
-// A candidate as all ranks see it
+// A candidate as known to all ranks
 struct Candidate
 {
     ControlPoint point;
     Vector3 residual;   // g - C^T s, its first k entries
     double error;       // |residual|
-    int rank;           // who has it
-    Index index;        // and under which index
+    int rank;           // its rank
+    Index index;        // and its index there
 
     // Larger errors first, then by position
     static bool precedes(const Candidate& a, const Candidate& b);
@@ -33,8 +33,8 @@ struct Errors
     std::vector<char> available;    // n: neither selected nor rejected
 };
 
-// The candidate of all ranks with the largest error, if one exceeds `least`.
-// Every rank sends one; collective.
+// The candidate with the largest error over all ranks, if it exceeds `least`.
+// Every rank sends one. Collective.
 std::vector<Candidate> worstCandidate
 (
     const ControlPoints& candidates,
@@ -45,12 +45,12 @@ std::vector<Candidate> worstCandidate
 
 // The `length` candidates of all ranks with the largest errors above `least`,
 // at most one per cell of size `cell` [m] (none if zero); sorted, the same on
-// every rank whatever the distribution. `outside` receives the error of the
-// first that did not find a place, zero if all did. `largest` is the largest
-// error of all ranks.
+// every rank whatever the distribution. `outside` receives the largest error of
+// those left out, zero if there are none. `largest` is the largest error of all
+// ranks.
 //
-// A histogram of all ranks' errors tells each from where on it need not send:
-// together they send hardly more than the list has. Collective.
+// A histogram of the errors of all ranks tells each rank what it need not send:
+// together they send hardly more than the list holds. Collective.
 std::vector<Candidate> candidateList
 (
     const ControlPoints& candidates,

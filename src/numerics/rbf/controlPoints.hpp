@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Control points: where they are, along which directions their displacement is
-// prescribed, and by how much.
+// Control points: their positions, the directions along which their
+// displacement is prescribed, and its values.
 
 #ifndef morph_controlPoints_hpp
 #define morph_controlPoints_hpp
@@ -54,7 +54,7 @@ struct ControlPoint
     // Is s free along some direction?
     bool slides() const { return k < 3; }
 
-    // The residual g - C^T s, in three components of which k count
+    // The residual g - C^T s; the first k components count
     Vector3 residual(const Vector3& s) const
     {
         // Of fixed sizes, which cost a fraction of a product of variable size
@@ -76,7 +76,7 @@ using ControlPoints = std::vector<ControlPoint>;
 // The positions as columns
 Columns positions(const ControlPoints& points);
 
-// Thrown where two control points at one place contradict each other
+// Thrown if two control points at one position contradict each other
 struct ConflictingControlPoints
 :
     std::invalid_argument

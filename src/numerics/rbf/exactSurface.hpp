@@ -16,10 +16,10 @@
 namespace morph
 {
 
-// Lets a displacement field that meets the conditions of control points but for
-// some residuals meet them exactly (surfaceCorrection.hpp). Every rank gets the
-// positions of all control points once, and their residuals each time: 24 B for
-// each. Who reaches whom is found once.
+// Makes a displacement field meet the conditions of all control points exactly,
+// given their residuals (surfaceCorrection.hpp). Every rank receives the
+// positions of all control points once, and their residuals each time: 24 B
+// each. Which points reach which is computed once.
 class ExactSurface
 {
 public:

@@ -23,12 +23,12 @@ namespace morph
 namespace
 {
 
-// In units of the distance from the worst candidate to what is selected: one
-// candidate per cell keeps neighbours, which one point corrects together, from
-// filling the list
+// Cell size in units of the distance from the worst candidate to the selected
+// points. One candidate per cell: neighbours, which one point corrects
+// together, must not fill the list
 constexpr double cellFraction = 0.4;
 
-// Candidates in the list for each that is taken from it at most
+// Length of the list, per point taken from it at most
 constexpr Index listFactor = 3;
 
 // Renewed values that do not settle: the error has to halve in this many
@@ -43,7 +43,7 @@ constexpr double settled = 0.1;
 constexpr Index blockOfAll = 256;
 
 
-// Adds the wall time of its life to a sum
+// Adds the wall time of its lifetime to a sum
 class Stopwatch
 {
 public:
@@ -286,8 +286,8 @@ void GreedySelection::appendBlocks
                 continue;
             }
 
-            // Kinds of points are in or out together: one by one it is only
-            // those that are in the way
+            // Several points are appended together or not at all; one by one,
+            // only the singular ones are left out
             const std::vector<bool> alone = system_->append(list, {Index(j)});
             alone[0] ? take(list[j], rank) : reject(list[j], rank);
         }
@@ -624,8 +624,8 @@ Index GreedySelection::pointsPerSweep() const
         return settings_.pointsPerSweep;
     }
 
-    // A tenth of what is there; where that is much, less, since the work on a
-    // list grows with its square and exceeds that of a sweep
+    // A tenth of the points selected so far; less for many points, since the
+    // work on a list grows with its square and would exceed that of a sweep
     const Index n = origins_.size();
     return std::max<Index>(4, std::min(n/10, 25 + n/20));
 }

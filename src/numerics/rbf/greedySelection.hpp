@@ -106,7 +106,7 @@ class GreedySelection
 {
 public:
 
-    // Told after every sweep what has been reached so far
+    // Called after every sweep with the result so far
     using Observer = std::function<void(const SelectionResult&)>;
 
     // Given the displacements (n x 3) at this rank's candidates after a sweep,
@@ -136,7 +136,7 @@ public:
     // cannot carry the polynomial asked for, std::runtime_error where memory
     // does not suffice; on all ranks alike.
     //
-    // An observer, if there is one, has to be there on all ranks.
+    // An observer must be given on all ranks or on none.
     SelectionResult select
     (
         const ControlPoints& candidates,
@@ -149,7 +149,7 @@ public:
     // not, exceeds the tolerance; or when it does not get smaller any more. The
     // tolerance is of the values that the candidates have at the start.
     //
-    // The renewal has to be there on all ranks, or on none
+    // The renewal must be given on all ranks or on none
     SelectionResult select
     (
         ControlPoints& candidates,
@@ -158,8 +158,8 @@ public:
         const Observer& observer = Observer()
     );
 
-    // Where the points are that are selected, in the order of the system: the
-    // same on every rank
+    // Positions of the selected points in the order of the system, the same on
+    // every rank
     std::vector<Vector3> selectedPositions() const;
 
     // Makes the system anew with the points at the given positions, each that

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Mirror and periodic images: fields that a group of rigid maps leaves as they
-// are.
+// Mirror and periodic images: fields that are invariant under a group of rigid
+// maps.
 
 #ifndef morph_imageGroup_hpp
 #define morph_imageGroup_hpp
@@ -58,7 +58,7 @@ struct Box
 };
 
 
-// Thrown where a group has more images in reach than wanted
+// Thrown if a group has more images in reach than allowed
 struct TooManyImages
 :
     std::length_error
@@ -103,7 +103,7 @@ public:
     // The identity is the first
     const std::vector<RigidMap>& maps() const { return maps_; }
 
-    // The identity alone?
+    // Is there only the identity?
     bool trivial() const { return maps_.size() == 1; }
 
     // The mean of R_T over the maps that leave x where it is: the projection

@@ -14,10 +14,11 @@ namespace morph
 namespace
 {
 
-// A Cholesky factorisation, point by point and as far as one likes, of the
-// system of a list; its right-hand side, the errors, goes with it. Columns of the system are computed for several points at a time, those that
-// are worst and likely to be next: a third of all, without the whole of it
-// being anywhere, and by products of matrices.
+// A Cholesky factorisation of the system of a list, point by point and as far
+// as needed, which updates the right-hand side, the errors, as it goes. Columns
+// of the system are computed for several points at a time, those with the
+// largest errors: about a third of all columns, by matrix products, without
+// ever storing the whole system.
 class ListFactor
 {
 public:

@@ -12,10 +12,10 @@
 namespace morph
 {
 
-// Up to four moving or fixed points that span what they can, as far apart as
-// they come: the first by position, then each the farthest from the span of the
-// others. The same on every rank; collective. Throws std::invalid_argument
-// where the candidates of all ranks cannot carry what the kernel needs.
+// Up to four moving or fixed points, as far apart as possible: the first by
+// position, then each the farthest from the span of the others. The same on
+// every rank; collective. Throws std::invalid_argument where the candidates of
+// all ranks cannot carry what the kernel needs.
 std::vector<Candidate> polynomialNodes
 (
     const Kernel& kernel,

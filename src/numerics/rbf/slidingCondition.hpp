@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Points that slide on curved surfaces: what their condition prescribes.
+// The conditions of points that slide on curved surfaces.
 
 #ifndef morph_slidingCondition_hpp
 #define morph_slidingCondition_hpp
@@ -11,8 +11,8 @@
 namespace morph
 {
 
-// Tangent planes of the surfaces on which a point has to be, nearest to where
-// it is: one for a point on a surface, two for one on an edge
+// Nearest tangent planes of the surfaces that a point must be on: one for a
+// surface, two for an edge
 struct TangentPlanes
 {
     int k = 0;
@@ -20,7 +20,7 @@ struct TangentPlanes
     // Unit normals, in columns
     Eigen::Matrix<double, 3, 2> normals = Eigen::Matrix<double, 3, 2>::Zero();
 
-    // How far the point is above each plane [m]
+    // Distance of the point above each plane [m]
     Eigen::Vector2d distances = Eigen::Vector2d::Zero();
 
     void add(const Vector3& normal, double distance)
@@ -38,14 +38,14 @@ struct TangentPlanes
 //
 // for one surface g = n . s - distance/(n . n*). Only the value is new, the
 // directions C are kept. Returns the cosine of the angle between the directions
-// and those of the planes, |n . n*|; where it is less than leastSlidingCosine
-// the point has gone too far around the surface for its directions, and its
-// value moves it as far as it would with that cosine.
+// and those of the planes, |n . n*|; if it is less than leastSlidingCosine the
+// point has gone too far around the surface for its directions, and the step is
+// that of this cosine.
 double slideOnto(ControlPoint& p, const Vector3& s, const TangentPlanes& planes);
 
 constexpr double leastSlidingCosine = 0.3;
 
-// The shortest way into all of the planes
+// The shortest displacement into all of the planes
 Vector3 wayInto(const TangentPlanes& planes);
 
 } // namespace morph

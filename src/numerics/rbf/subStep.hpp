@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// One of several steps that together make a motion, from where the former left
-// the points.
+// One of several steps of a motion, starting where the previous one left the
+// points.
 
 #ifndef morph_subStep_hpp
 #define morph_subStep_hpp
@@ -50,8 +50,8 @@ struct SubStep
 //     C^T s = (g - C^T reached)/steps
 //
 // so that prescribed points go in a straight line, and the last step (1) meets
-// every condition. A renewal, if there is one, is told the displacements from
-// the beginning of the motion.
+// every condition. A renewal, if any, receives the displacements since the
+// beginning of the motion.
 //
 // positions: of the points, in the intermediate mesh
 // steps: this one and those that remain

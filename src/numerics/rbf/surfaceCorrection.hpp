@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The last of the error at control points that were not selected.
+// Removes the remaining error at control points that were not selected.
 
 #ifndef morph_surfaceCorrection_hpp
 #define morph_surfaceCorrection_hpp
@@ -45,8 +45,8 @@ public:
     // What is to be added at the centres: n x 3 [m]
     void set(const Vectors& residuals);
 
-    // Which centres reach which of some points, and by how much: this depends
-    // on the geometry alone, and is what takes the time
+    // Which centres reach which points, and by how much. Depends on geometry
+    // alone, and takes most of the time
     class Reach
     {
         friend class SurfaceCorrection;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The morphFoam authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The two loops over pairs of points in which the time goes.
+// The two loops over pairs of points that take most of the time.
 
 #ifndef morph_kernelSum_hpp
 #define morph_kernelSum_hpp

@@ -43,8 +43,8 @@ public:
     // The positions, leaf after leaf, padded: padded size x 3
     const Columns& sorted() const { return sorted_; }
 
-    // For each sorted point its index in the positions given; the copies that
-    // fill a block up have that of the point they copy
+    // For each sorted point its index in the given positions; padding has the
+    // index of the point that it copies
     const std::vector<Index>& index() const { return index_; }
 
 private:

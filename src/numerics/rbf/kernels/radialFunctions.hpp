@@ -19,9 +19,9 @@ namespace morph
 namespace radial
 {
 
-// One. Were its value known, the compiler would make a branch of the clamping,
-// behind which the whole formula is a constant, and the loops would vectorise
-// only where there are masks (AVX-512)
+// The value 1. If the compiler knew it, it would turn the clamping into a
+// branch with a constant result, and the loops would vectorise only with masks
+// (AVX-512)
 extern const double endOfSupport;
 
 inline double clampedRoot(double d2)

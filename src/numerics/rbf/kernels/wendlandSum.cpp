@@ -3,12 +3,11 @@
 
 #include "wendlandSum.hpp"
 
-// Compilers other than GCC do without. MORPH_NO_AVX512 shows what other machines
-// get
+// For GCC only. MORPH_NO_AVX512 builds what other machines use
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) \
     && !defined(MORPH_NO_AVX512)
 
-// GCC's own functions have a variable that is never set, on purpose
+// GCC's intrinsics contain a deliberately uninitialised variable
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
 #include <algorithm>

@@ -11,14 +11,14 @@
 namespace morph
 {
 
-// With one square root for each pair, all wait for the unit that makes them.
-// The distances of some centres (CentreGroup) are made instead by
-// multiplications, from an approximate reciprocal root: within 1.1 units in the
-// last place, and zero at the centre. Which centres these are depends on their
-// place among all alone, so that a point's sum does not depend on the points
-// and centres beside it.
+// With one square root per pair, the square-root unit is the bottleneck. The
+// distances of some centres (CentreGroup) are computed by multiplications
+// instead, from an approximate reciprocal root: within 1.1 units in the last
+// place, and zero at the centre. Which centres these are depends on their place
+// among all alone, so that a point's sum does not depend on the points and
+// centres beside it.
 
-// Is this a function, and a machine, for which the sum below works?
+// Does the sum below support this function and this machine?
 bool hasWendlandSum(KernelType type);
 
 // As addKernelSum

@@ -14,7 +14,7 @@ namespace morph
 {
 
 // Stored in panels of rows, each as wide as its last row: half the memory of a
-// square, and nothing but the last panel is copied when it grows.
+// square matrix, and only the last panel is copied when it grows.
 class BlockTriangularFactor
 {
 public:

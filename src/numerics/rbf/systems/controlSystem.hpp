@@ -13,8 +13,8 @@
 namespace morph
 {
 
-// What greedy selection asks of a system; how it is solved distinguishes the
-// algorithms.
+// The interface between greedy selection and its linear system; algorithms
+// differ in how they solve it.
 class ControlSystem
 {
 public:
@@ -25,7 +25,7 @@ public:
     struct Choice
     {
         std::vector<Index> taken;
-        std::vector<Index> singular;   // cannot be taken now nor later
+        std::vector<Index> singular;   // can never be taken
     };
 
     // Candidates of the list to append next, at most `most`. The first of the
@@ -46,9 +46,9 @@ public:
         return choice;
     }
 
-    // Appends what was chosen from the list and tells which of it is in: points
-    // with which the system would be singular to round-off are left out. After
-    // choose() it must be the list chosen from.
+    // Appends the chosen points of the list and returns which were accepted:
+    // points with which the system would be singular to round-off are left out.
+    // After choose() it must be the list chosen from.
     virtual std::vector<bool> append
     (
         const std::vector<Candidate>& list,

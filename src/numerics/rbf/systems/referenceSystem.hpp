@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The system of Mastrippolito et al. (2019), doi:10.1108/EC-06-2018-0265, as
-// the paper has it. For reference algorithms; gramFactor.hpp has the better one.
+// the paper has it. Used by the reference algorithms; gramFactor.hpp is the
+// efficient form.
 
 #ifndef morph_referenceSystem_hpp
 #define morph_referenceSystem_hpp
