@@ -92,7 +92,7 @@ Foam::rbfMotionState::rbfMotionState(const polyMesh& mesh)
 {
     // By hand: a file that cannot be read is not the same as none, and in
     // parallel the reader of OpenFOAM does not know its name
-    const fileName path(Foam::typeFilePath<IOdictionary>(*this));
+    const fileName path(foamCompat::filePath<IOdictionary>(*this));
     string fault;
     if (Pstream::master())
     {
