@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "rbfMotionProblem.H"
 #include "foamCompat.H"
 #include "invalidMotion.H"
+#include "StringStream.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -233,6 +234,17 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionProblem::expand
 bool Foam::rbfMotionProblem::isValid(const vectorField& displacement) const
 {
     return invalidMotion(mesh_, points0_, points0_ + displacement).empty();
+}
+
+
+Foam::string Foam::rbfMotionProblem::remedy() const
+{
+    OStringStream remedy;
+    remedy
+        << "Make the motion smaller, the support radius (" << radius()
+        << " m) larger, let more patches slide," << nl
+        << "    or move in several steps ('subSteps auto')";
+    return remedy.str();
 }
 
 

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "rbfMotionSettings.H"
 #include "dictionaryChecks.H"
+#include "motionZone.H"
 #include "DynamicList.H"
 #include "unitConversion.H"
 
@@ -232,6 +233,29 @@ static string imagesRefusal(const rbfMotionSettings& settings)
 
 
 // * * * * * * * * * * * * * * Static Functions  * * * * * * * * * * * * * * //
+
+void Foam::rbfMotionSettings::check
+(
+    const dictionary& dict,
+    const bool amongOthers
+)
+{
+    wordList keys
+    ({
+        "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
+        "selection", "images", "surfaceCorrection", "featureAngle",
+        "exactSliding", "onInvalidMesh", "subSteps"
+    });
+    dictionaryChecks::checkNumbers(dict);
+    dictionaryChecks::checkValues(dict, keys);
+    if (!amongOthers)
+    {
+        keys.append(wordList({"controlPoints", "greedy", "frozenPointsZone"}));
+        keys.append(motionZone::keys());
+        dictionaryChecks::onlyKeys(dict, keys);
+    }
+}
+
 
 Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
 {

@@ -12,7 +12,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "motionRecord.H"
 #include "pointDisplacementField.H"
 #include "referencePoints.H"
-#include "StringStream.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -114,31 +113,10 @@ Foam::rbfMotionSolver::~rbfMotionSolver()
 const Foam::dictionary& Foam::rbfMotionSolver::checkedCoeffDict() const
 {
     dictionaryChecks::restoreNames(coeffDict(), objectPath());
-    dictionaryChecks::checkNumbers(coeffDict());
-    dictionaryChecks::checkValues
-    (
-        coeffDict(),
-        {
-            "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
-            "selection", "images", "surfaceCorrection", "featureAngle",
-            "exactSliding", "onInvalidMesh", "subSteps"
-        }
-    );
 
     // Without a dictionary of coefficients this is dynamicMeshDict itself,
     // with keys of others
-    if (found(typeName + "Coeffs"))
-    {
-        wordList keys
-        ({
-            "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
-            "controlPoints", "greedy", "selection", "images",
-            "surfaceCorrection", "featureAngle", "exactSliding",
-            "onInvalidMesh", "subSteps", "frozenPointsZone"
-        });
-        keys.append(motionZone::keys());
-        dictionaryChecks::onlyKeys(coeffDict(), keys);
-    }
+    rbfMotionSettings::check(coeffDict(), !found(typeName + "Coeffs"));
     return coeffDict();
 }
 
@@ -243,7 +221,7 @@ void Foam::rbfMotionSolver::limit(rbfMotion& motion)
         points0() + motion.displacement,
         problem_->expand(motion.increment)(),
         {motion.nMade/n, (motion.nMade + 1)/n, motion.nSteps},
-        remedy()
+        problem_->remedy()
     );
     if (motion.nSteps == 1)
     {
@@ -259,45 +237,17 @@ void Foam::rbfMotionSolver::limit(rbfMotion& motion)
 
 void Foam::rbfMotionSolver::report(const rbfMotion& motion)
 {
-    if (motion.nSteps > 1)
+    motionRecord* record = motionRecord::of(mesh());
+    if (record && motion.nSteps > 1)
     {
-        label fewest = 0;
-        label most = 0;
-        for (const rbfMotion::selection& s : motion.selections)
-        {
-            fewest += s.fewest;
-            most += s.most;
-        }
-        motionRecord* record = motionRecord::of(mesh());
-        if (record)
-        {
-            record->set("subSteps", motion.nSteps);
-        }
-        Info<< type() << ": moved in " << motion.nMade << " sub-steps";
-        if (motion.fraction < 1)
-        {
-            Info<< " of " << motion.nSteps << ", to the fraction "
-                << motion.fraction;
-        }
-        Info<< ", with " << fewest << " to " << most << " control points"
-            << endl;
+        record->set("subSteps", motion.nSteps);
     }
+    report_.steps(motion);
     summary_.add(motion);
     if (debug)
     {
         report_.debugInfo(motion);
     }
-}
-
-
-Foam::string Foam::rbfMotionSolver::remedy() const
-{
-    OStringStream remedy;
-    remedy
-        << "Make the motion smaller, the support radius ("
-        << problem_->radius() << " m) larger, let more patches slide," << nl
-        << "    or move in several steps ('subSteps auto')";
-    return remedy.str();
 }
 
 

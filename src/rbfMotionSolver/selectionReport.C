@@ -189,6 +189,31 @@ void Foam::selectionReport::write
 }
 
 
+void Foam::selectionReport::steps(const rbfMotion& motion)
+{
+    if (motion.nSteps == 1)
+    {
+        return;
+    }
+    label fewest = 0;
+    label most = 0;
+    for (const rbfMotion::selection& s : motion.selections)
+    {
+        fewest += s.fewest;
+        most += s.most;
+    }
+    Info<< "rbfMotionSolver: moved in "
+        << counted(motion.nMade, "sub-step").c_str();
+    if (motion.fraction < 1)
+    {
+        Info<< " of " << motion.nSteps << ", to the fraction "
+            << motion.fraction;
+    }
+    Info<< ", with " << fewest << " to "
+        << counted(most, "control point").c_str() << endl;
+}
+
+
 void Foam::selectionReport::debugInfo(const rbfMotion& motion)
 {
     for (const rbfMotion::selection& made : motion.selections)
