@@ -31,9 +31,9 @@ def main(arguments):
         sys.exit(__doc__)
     start = time.time()
     data = measure.everything(measure.QUICK if quick else measure.FULL)
-    data["minutes"] = (time.time() - start)/60
+    data["minutes"] = (time.time() - start) / 60
     data["quick"] = quick
-    where = measure.BUILD/"results" if quick else measure.HERE/"results"
+    where = measure.BUILD / "results" if quick else measure.HERE / "results"
     print("Written:", report.write(data, where))
 
 

@@ -29,17 +29,26 @@ def run(tree, suites, folder):
     """Run the tests of a tree; what they leave is below the folder."""
     words = " ".join(f"tests/{suite}" for suite in suites)
     subprocess.run(
-        ["bash", "-c", ". etc/bashrc && $(bin/python3With pytest numpy)"
-         f" -m pytest -q -p no:cacheprovider --basetemp={folder} {words}"],
-        cwd=tree, check=False, stdout=subprocess.DEVNULL,
-        stderr=subprocess.STDOUT)
+        [
+            "bash",
+            "-c",
+            ". etc/bashrc && $(bin/python3With pytest numpy)"
+            f" -m pytest -q -p no:cacheprovider --basetemp={folder} {words}",
+        ],
+        cwd=tree,
+        check=False,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.STDOUT,
+    )
 
 
 def meshes(folder):
     """Path below the folder -> file, for all files of points."""
-    return {path.relative_to(folder): path
-            for path in sorted(folder.rglob("*"))
-            if path.name in ("points", "points.gz") and path.is_file()}
+    return {
+        path.relative_to(folder): path
+        for path in sorted(folder.rglob("*"))
+        if path.name in ("points", "points.gz") and path.is_file()
+    }
 
 
 def content(path):
@@ -47,7 +56,7 @@ def content(path):
     data = path.read_bytes()
     if path.suffix == ".gz":
         data = gzip.decompress(data)
-    return data[data.index(b"// *"):] if b"// *" in data else data
+    return data[data.index(b"// *") :] if b"// *" in data else data
 
 
 def difference(one, other):
@@ -56,9 +65,12 @@ def difference(one, other):
     for data in (one, other):
         found = re.search(rb"\n(\d+)\s*\n?\((.*)\)", data, re.DOTALL)
         try:
-            values.append(np.array(
-                found[2].replace(b"(", b" ").replace(b")", b" ").split(),
-                dtype=float))
+            values.append(
+                np.array(
+                    found[2].replace(b"(", b" ").replace(b")", b" ").split(),
+                    dtype=float,
+                )
+            )
         except (TypeError, ValueError):
             return float("nan")
     if len(values[0]) != len(values[1]):
@@ -85,7 +97,8 @@ def main():
     """The command."""
     parser = argparse.ArgumentParser(
         description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("trees", nargs=2, type=pathlib.Path)
     parser.add_argument("-suite", action="append")
     parser.add_argument("-keep", type=pathlib.Path)
@@ -94,8 +107,8 @@ def main():
         folder = (given.keep or pathlib.Path(scratch)).resolve()
         folder.mkdir(parents=True, exist_ok=True)
         for name, tree in zip("ab", given.trees):
-            run(tree, given.suite or ["tutorials"], folder/name)
-        rows = compare(folder/"a", folder/"b")
+            run(tree, given.suite or ["tutorials"], folder / name)
+        rows = compare(folder / "a", folder / "b")
     print("| test | meshes | the same | largest difference |")
     print("|---|---|---|---|")
     for name, (number, same, largest) in sorted(rows.items()):

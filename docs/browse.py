@@ -63,24 +63,41 @@ class Browser:
 
         # The browser reads commands from 3 and answers on 4. Neither end may
         # have either number before it is put there
-        out_high, in_high = (os.dup2(fd, 100 + i, inheritable=True)
-                             for i, fd in enumerate((out_read, in_write)))
+        out_high, in_high = (
+            os.dup2(fd, 100 + i, inheritable=True)
+            for i, fd in enumerate((out_read, in_write))
+        )
         self.process = subprocess.Popen(
-            ["bash", "-c", 'exec 3<&100 4>&101 100<&- 101>&-; exec "$@"', "bash",
-             program, "--headless=new", "--remote-debugging-pipe",
-             "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-             "--hide-scrollbars", f"--user-data-dir={profile}"],
-            close_fds=False, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL)
+            [
+                "bash",
+                "-c",
+                'exec 3<&100 4>&101 100<&- 101>&-; exec "$@"',
+                "bash",
+                program,
+                "--headless=new",
+                "--remote-debugging-pipe",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+                "--hide-scrollbars",
+                f"--user-data-dir={profile}",
+            ],
+            close_fds=False,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         for fd in (out_read, in_write, out_high, in_high):
             os.close(fd)
         self.answers = b""
         self.number = 0
         self.events = []
-        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        target = self.call("Target.createTarget", url="about:blank")[
+            "targetId"
+        ]
         self.session = None
-        self.session = self.call("Target.attachToTarget", targetId=target,
-                                 flatten=True)["sessionId"]
+        self.session = self.call(
+            "Target.attachToTarget", targetId=target, flatten=True
+        )["sessionId"]
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.call(f"{domain}.enable")
 
@@ -112,18 +129,25 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", **screen)
         self.events = []
         self.call("Page.navigate", url=url)
-        while not any(e.get("method") == "Page.loadEventFired"
-                      for e in self.events):
+        while not any(
+            e.get("method") == "Page.loadEventFired" for e in self.events
+        ):
             self.events.append(self.receive())
         # Pictures below the first screen, and equations
-        self.evaluate("""new Promise(done => { document.fonts.ready.then(() =>
-            requestAnimationFrame(() => setTimeout(done, 100))) })""")
+        self.evaluate(
+            """new Promise(done => { document.fonts.ready.then(() =>
+            requestAnimationFrame(() => setTimeout(done, 100))) })"""
+        )
         said = self.evaluate(INSPECT)
         return said, [w for w in map(wrong_with, self.events) if w]
 
     def evaluate(self, expression):
-        result = self.call("Runtime.evaluate", expression=expression,
-                           returnByValue=True, awaitPromise=True)
+        result = self.call(
+            "Runtime.evaluate",
+            expression=expression,
+            returnByValue=True,
+            awaitPromise=True,
+        )
         if "exceptionDetails" in result:
             raise RuntimeError(result["exceptionDetails"]["text"])
         return result["result"].get("value")
@@ -143,17 +167,24 @@ def wrong_with(event):
     """What an event of the browser complains of, if anything."""
     method, what = event.get("method"), event.get("params", {})
     if method == "Runtime.exceptionThrown":
-        return what["exceptionDetails"].get("exception", {}).get(
-            "description", "an exception")
-    if method == "Network.responseReceived" and \
-            what["response"]["status"] >= 400 and \
-            not what["response"]["url"].endswith("/favicon.ico"):
+        return (
+            what["exceptionDetails"]
+            .get("exception", {})
+            .get("description", "an exception")
+        )
+    if (
+        method == "Network.responseReceived"
+        and what["response"]["status"] >= 400
+        and not what["response"]["url"].endswith("/favicon.ico")
+    ):
         return f"{what['response']['status']}: {what['response']['url']}"
     if method == "Network.loadingFailed" and not what.get("canceled"):
         return f"{what.get('errorText')}: a request failed"
     if method == "Network.requestWillBeSent":
         url = what["request"]["url"]
-        if not url.startswith(("http://127.0.0.1:", "data:", "blob:", "about:")):
+        if not url.startswith(
+            ("http://127.0.0.1:", "data:", "blob:", "about:")
+        ):
             return f"asks another host: {url}"
     return None
 
@@ -166,7 +197,8 @@ class Quiet(http.server.SimpleHTTPRequestHandler):
 @contextlib.contextmanager
 def served(folder):
     server = http.server.ThreadingHTTPServer(
-        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(folder)))
+        ("127.0.0.1", 0), functools.partial(Quiet, directory=str(folder))
+    )
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_address[1]}/"
     server.shutdown()
@@ -187,9 +219,11 @@ def browser():
 
 def pages(site):
     """Pages that we write; those of Doxygen are its own."""
-    return sorted(p.relative_to(site).as_posix() for p in site.rglob("*.html")
-                  if p.relative_to(site).parts[0] != "api"
-                  and p.name != "404.html")
+    return sorted(
+        p.relative_to(site).as_posix()
+        for p in site.rglob("*.html")
+        if p.relative_to(site).parts[0] != "api" and p.name != "404.html"
+    )
 
 
 def look(site, screenshots=None):
@@ -205,31 +239,50 @@ def look(site, screenshots=None):
                 if said["drawn"] < said["equations"]:
                     wrong.append((page, "equations are not drawn"))
                 if said["width"] > screen["width"] or said["beyond"]:
-                    wrong.append((page, f"scrolls sideways on a {name}: "
-                                  f"{said['width']} pixels {said['beyond']}"))
+                    wrong.append(
+                        (
+                            page,
+                            f"scrolls sideways on a {name}: "
+                            f"{said['width']} pixels {said['beyond']}",
+                        )
+                    )
                 if said["words"] < 20:
                     wrong.append((page, "is empty"))
                 if screenshots:
                     screenshots.mkdir(parents=True, exist_ok=True)
                     one.screenshot(
-                        screenshots/f"{page.replace('/', '.')}.{name}.png")
+                        screenshots / f"{page.replace('/', '.')}.{name}.png"
+                    )
             seen[page] = said
             ids[page] = set(said["ids"])
-            links[page] = {link[len(root):] for link in said["links"]
-                           if link.startswith(root)}
-        wrong += [(page, f"broken link {link}")
-                  for page in links for link in sorted(links[page])
-                  if not leads_somewhere(site, ids, link)]
+            links[page] = {
+                link[len(root) :]
+                for link in said["links"]
+                if link.startswith(root)
+            }
+        wrong += [
+            (page, f"broken link {link}")
+            for page in links
+            for link in sorted(links[page])
+            if not leads_somewhere(site, ids, link)
+        ]
     return wrong, seen
 
 
 def leads_somewhere(site, ids, link):
     path, _, anchor = link.partition("#")
     path = path.partition("?")[0] or "index.html"
-    if not (site/path).is_file() and not (site/path/"index.html").is_file():
+    if (
+        not (site / path).is_file()
+        and not (site / path / "index.html").is_file()
+    ):
         return False
-    return not anchor or path not in ids or anchor in ids[path] \
+    return (
+        not anchor
+        or path not in ids
+        or anchor in ids[path]
         or anchor.startswith("__")
+    )
 
 
 def main():
@@ -241,9 +294,11 @@ def main():
     wrong, seen = look(options.site, options.screenshots)
     for page, what in wrong:
         print(f"{page}: {what}")
-    print(f"{len(seen)} pages, "
-          f"{sum(s['equations'] for s in seen.values())} equations, "
-          f"{len(wrong)} faults")
+    print(
+        f"{len(seen)} pages, "
+        f"{sum(s['equations'] for s in seen.values())} equations, "
+        f"{len(wrong)} faults"
+    )
     sys.exit(bool(wrong))
 
 

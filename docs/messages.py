@@ -35,8 +35,10 @@ SUBJECTS = {
 }
 
 # What the solvers check before the core would find out
-OF_THE_CORE = ("The motion solvers check this before they call the core: "
-               "please report it, with the case.")
+OF_THE_CORE = (
+    "The motion solvers check this before they call the core: "
+    "please report it, with the case."
+)
 
 # What starts a message, whether it is an error, and what ends it
 EMITTERS = re.compile(
@@ -55,10 +57,13 @@ class Message:
     def __init__(self, path, warning, text):
         self.path = path
         self.warning = warning
-        lines = [re.sub(r"\s+", " ", line).strip() for line in text.split("\n")]
+        lines = [
+            re.sub(r"\s+", " ", line).strip() for line in text.split("\n")
+        ]
         lines = [line for line in lines if line.strip(" .…")]
         while len(lines) > 1 and (
-                lines[0].endswith(",") or lines[1][0].islower()):
+            lines[0].endswith(",") or lines[1][0].islower()
+        ):
             lines[:2] = [f"{lines[0]} {lines[1]}"]
         first, _, more = lines[0].partition(". ")
         self.fact = first.lstrip(": ")
@@ -75,12 +80,14 @@ class Message:
 def statements(text):
     """(emitter, rest of its statement) for each message in a source."""
     for match in EMITTERS.finditer(text):
-        yield match, text[match.end():_end(text, match.end())]
+        yield match, text[match.end() : _end(text, match.end())]
 
 
 def _end(text, start):
     """The semicolon that ends a statement; strings are skipped."""
-    for token in re.finditer(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'|;', text[start:]):
+    for token in re.finditer(
+        r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'|;', text[start:]
+    ):
         if token[0] == ";":
             return start + token.start()
     return len(text)
@@ -91,11 +98,14 @@ def said(statement):
     # A number of things, in the plural
     statement = re.sub(
         r'(?:plainText::)?counted\s*\([^;"]*?,\s*"([\w ]+)"\s*\)(?:\.c_str\(\))?',
-        r'"… \1s"', statement)
+        r'"… \1s"',
+        statement,
+    )
     text = ""
     for token in re.finditer(
-            r'"((?:\\.|[^"\\])*)"|\b(nl|endl)\b|(\bexit\b|\babort\b)|[\w.:]+',
-            statement):
+        r'"((?:\\.|[^"\\])*)"|\b(nl|endl)\b|(\bexit\b|\babort\b)|[\w.:]+',
+        statement,
+    ):
         if token[3]:
             break
         if token[1] is not None:
@@ -111,22 +121,27 @@ def messages():
     """All messages of src and applications."""
     found = []
     for folder in ("src", "applications"):
-        for path in sorted((ROOT/folder).rglob("*")):
-            if path.suffix not in (".C", ".H", ".cpp", ".hpp") \
-                    or "lnInclude" in path.parts:
+        for path in sorted((ROOT / folder).rglob("*")):
+            if (
+                path.suffix not in (".C", ".H", ".cpp", ".hpp")
+                or "lnInclude" in path.parts
+            ):
                 continue
             for emitter, rest in statements(path.read_text()):
                 words = said(rest)
                 if words:
-                    found.append(Message(
-                        path, "Warning" in (emitter["kind"] or ""), words))
+                    found.append(
+                        Message(
+                            path, "Warning" in (emitter["kind"] or ""), words
+                        )
+                    )
     return found
 
 
 def remedies():
     """Of remedies.txt: what to do by first sentence."""
     found = {}
-    text = (ROOT/"docs/remedies.txt").read_text()
+    text = (ROOT / "docs/remedies.txt").read_text()
     for block in re.split(r"\n\s*\n", re.sub(r"^#.*\n", "", text, flags=re.M)):
         fact, _, remedy = block.strip().partition("\n")
         found[fact.strip()] = " ".join(remedy.split())
@@ -144,17 +159,23 @@ def page():
         by_subject.setdefault(message.subject(), []).append(message)
 
     parts = []
-    for subject in [*SUBJECTS.values(),
-                    *sorted(set(by_subject) - set(SUBJECTS.values()))]:
+    for subject in [
+        *SUBJECTS.values(),
+        *sorted(set(by_subject) - set(SUBJECTS.values())),
+    ]:
         if subject not in by_subject:
             continue
         parts.append(f"## {subject}")
         for message in dict((m.fact, m) for m in by_subject[subject]).values():
             kind = "Warning: " if message.warning else ""
-            remedy = message.remedy or added.get(message.fact) or (
-                OF_THE_CORE if message.of_the_core() else "")
-            parts.append(f"{kind}**{_escaped(message.fact)}**  \n"
-                         f"{_escaped(remedy)}")
+            remedy = (
+                message.remedy
+                or added.get(message.fact)
+                or (OF_THE_CORE if message.of_the_core() else "")
+            )
+            parts.append(
+                f"{kind}**{_escaped(message.fact)}**  \n" f"{_escaped(remedy)}"
+            )
     return "\n\n".join(parts) + "\n"
 
 

@@ -14,8 +14,8 @@ import sys
 from PIL import Image, ImageChops
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-OUTPUT = ROOT/"docs/pictures"
-GREATEST = 150_000      # bytes
+OUTPUT = ROOT / "docs/pictures"
+GREATEST = 150_000  # bytes
 
 # Where a tutorial's pictures do not come from its Allrun alone
 COMMANDS = {
@@ -28,25 +28,56 @@ PICTURES = [
     ("front.rest", "airFoil2D", ["angle0.whole"], 700),
     ("front.turned", "airFoil2D", ["angle90.whole"], 700),
     ("airFoil2D.wide", "airFoil2D", ["angle0.wide", "angle90.wide"], 1000),
-    ("bladeTip.blade", "bladeTip", ["blade.before", "blade.images.auto"], 1000),
-    ("bladeTip.middle", "bladeTip", ["middle.before", "middle.images.auto"], 900),
+    (
+        "bladeTip.blade",
+        "bladeTip",
+        ["blade.before", "blade.images.auto"],
+        1000,
+    ),
+    (
+        "bladeTip.middle",
+        "bladeTip",
+        ["middle.before", "middle.images.auto"],
+        900,
+    ),
     ("bulb.lattice", "bulb", ["bulb.before"], 700),
     ("bulb.mesh", "bulb", ["mesh.before", "mesh.after"], 900),
     ("ffd2D.boxes", "ffd2D", ["inside", "boundary", "rotated"], 900),
-    ("ffdEllipsoid.lattice", "ffdEllipsoid",
-     ["ellipsoid.before", "ellipsoid.after"], 900),
+    (
+        "ffdEllipsoid.lattice",
+        "ffdEllipsoid",
+        ["ellipsoid.before", "ellipsoid.after"],
+        900,
+    ),
     ("floatingBody.film", "floatingBody", ["floating"], 900),
-    ("motorBikeSurface.lattice", "motorBikeSurface",
-     ["motorBike.before", "motorBike.after"], 900),
+    (
+        "motorBikeSurface.lattice",
+        "motorBikeSurface",
+        ["motorBike.before", "motorBike.after"],
+        900,
+    ),
     ("oscillatingCylinder.film", "oscillatingCylinder", ["wake"], 900),
-    ("pistonBowl.side", "pistonBowl",
-     ["side.before", "side.offset", "side.reentrant"], 900),
+    (
+        "pistonBowl.side",
+        "pistonBowl",
+        ["side.before", "side.offset", "side.reentrant"],
+        900,
+    ),
     ("pitchingAerofoil.film", "pitchingAerofoil", ["pitching"], 900),
     ("rudder.lattice", "rudder", ["rudder.before", "rudder.after"], 900),
-    ("slidingCylinder.mesh", "slidingCylinder",
-     ["laplacianUniform.sliding", "rbfSubSteps.sliding"], 800),
+    (
+        "slidingCylinder.mesh",
+        "slidingCylinder",
+        ["laplacianUniform.sliding", "rbfSubSteps.sliding"],
+        800,
+    ),
     ("twistingColumn.film", "twistingColumn", ["twist"], 800),
-    ("wigleyHull.water", "wigleyHull", ["water.before", "water.images.auto"], 900),
+    (
+        "wigleyHull.water",
+        "wigleyHull",
+        ["water.before", "water.images.auto"],
+        900,
+    ),
     ("wingMotion.mesh", "wingMotion", ["wing"], 900),
 ]
 
@@ -59,17 +90,23 @@ def trimmed(picture):
 
 
 def together(pictures, gap=24):
-    flat = all(p.width > 3*p.height for p in pictures)
+    flat = all(p.width > 3 * p.height for p in pictures)
     width = [p.width for p in pictures]
     height = [p.height for p in pictures]
-    between = gap*(len(pictures) - 1)
+    between = gap * (len(pictures) - 1)
     whole = Image.new(
-        "RGB", (max(width), sum(height) + between) if flat
-        else (sum(width) + between, max(height)), "white")
+        "RGB",
+        (max(width), sum(height) + between)
+        if flat
+        else (sum(width) + between, max(height)),
+        "white",
+    )
     at = 0
     for picture in pictures:
-        whole.paste(picture, (0, at) if flat
-                    else (at, (whole.height - picture.height)//2))
+        whole.paste(
+            picture,
+            (0, at) if flat else (at, (whole.height - picture.height) // 2),
+        )
         at += gap + (picture.height if flat else picture.width)
     return whole
 
@@ -77,31 +114,39 @@ def together(pictures, gap=24):
 def write(picture, path, width):
     """As large as it may be: fewer colours, then fewer pixels."""
     while True:
-        height = round(width*picture.height/picture.width)
+        height = round(width * picture.height / picture.width)
         small = picture.resize((width, height), Image.LANCZOS)
         for colours in (128, 64, 32, 16):
             small.quantize(colours, dither=Image.Dither.NONE).save(
-                path, optimize=True)
+                path, optimize=True
+            )
             if path.stat().st_size <= GREATEST:
                 return
-        width = round(0.9*width)
+        width = round(0.9 * width)
 
 
 def main():
     wanted = sys.argv[1:] or sorted({tutorial for _, tutorial, *_ in PICTURES})
     OUTPUT.mkdir(exist_ok=True)
     for tutorial in wanted:
-        results = ROOT/"tutorials"/tutorial/"results"
+        results = ROOT / "tutorials" / tutorial / "results"
         mine = [p for p in PICTURES if p[1] == tutorial]
-        if not all((results/f"{name}.png").exists()
-                   for _, _, names, _ in mine for name in names):
+        if not all(
+            (results / f"{name}.png").exists()
+            for _, _, names, _ in mine
+            for name in names
+        ):
             command = COMMANDS.get(tutorial, "Allrun").split()
-            subprocess.run([ROOT/"tutorials"/tutorial/command[0], *command[1:]],
-                           check=True)
+            subprocess.run(
+                [ROOT / "tutorials" / tutorial / command[0], *command[1:]],
+                check=True,
+            )
         for output, _, names, width in mine:
-            parts = [trimmed(Image.open(results/f"{name}.png").convert("RGB"))
-                     for name in names]
-            path = OUTPUT/f"{output}.png"
+            parts = [
+                trimmed(Image.open(results / f"{name}.png").convert("RGB"))
+                for name in names
+            ]
+            path = OUTPUT / f"{output}.png"
             write(together(parts), path, width)
             print(path.relative_to(ROOT), path.stat().st_size)
 

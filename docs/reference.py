@@ -18,9 +18,17 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # What a dictionary is called, the class whose header has its table, and, where
 # they are not those of the class itself, the sources that read its entries
 DICTIONARIES = [
-    ("rbfMotionSolverCoeffs", "rbfMotionSolver",
-     ["rbfMotionSolver", "rbfMotionSettings", "controlPointGroups",
-      "motionLimiter", "motionZone"]),
+    (
+        "rbfMotionSolverCoeffs",
+        "rbfMotionSolver",
+        [
+            "rbfMotionSolver",
+            "rbfMotionSettings",
+            "controlPointGroups",
+            "motionLimiter",
+            "motionZone",
+        ],
+    ),
     ("A group of controlPoints", "controlPointGroup", []),
     ("surface or target: a cylinder", "cylinderSurface", []),
     ("surface or target: others", "analyticSurface", ["slidingSurface"]),
@@ -29,34 +37,66 @@ DICTIONARIES = [
     ("displacement: uniform", "uniformDisplacement", []),
     ("displacement: velocity", "velocityDisplacement", []),
     ("displacement: solidBody", "solidBodyDisplacement", []),
-    ("displacement: values", "valuesDisplacement",
-     ["valuesDisplacement", "tabulatedDisplacement"]),
-    ("displacement: polyline", "polylineDisplacement",
-     ["polylineDisplacement", "tabulatedDisplacement"]),
-    ("displacement: file", "fileDisplacement",
-     ["fileDisplacement", "tabulatedDisplacement"]),
+    (
+        "displacement: values",
+        "valuesDisplacement",
+        ["valuesDisplacement", "tabulatedDisplacement"],
+    ),
+    (
+        "displacement: polyline",
+        "polylineDisplacement",
+        ["polylineDisplacement", "tabulatedDisplacement"],
+    ),
+    (
+        "displacement: file",
+        "fileDisplacement",
+        ["fileDisplacement", "tabulatedDisplacement"],
+    ),
     ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
-    ("displacement: sixDoFRigidBody", "sixDoFRigidBodyDisplacement",
-     ["sixDoFRigidBodyDisplacement", "sixDoFRigidBody"]),
-    ("ffdMotionSolverCoeffs", "ffdMotionSolver",
-     ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"]),
-    ("A box of boxes", "ffdBox",
-     ["ffdBox", "ffdBoxFaces", "ffdBoxSettings", "ffdDeformation",
-      "ffdFrames"]),
+    (
+        "displacement: sixDoFRigidBody",
+        "sixDoFRigidBodyDisplacement",
+        ["sixDoFRigidBodyDisplacement", "sixDoFRigidBody"],
+    ),
+    (
+        "ffdMotionSolverCoeffs",
+        "ffdMotionSolver",
+        ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"],
+    ),
+    (
+        "A box of boxes",
+        "ffdBox",
+        [
+            "ffdBox",
+            "ffdBoxFaces",
+            "ffdBoxSettings",
+            "ffdDeformation",
+            "ffdFrames",
+        ],
+    ),
     ("A parameter of a box", "ffdParameter", []),
     ("bulk: many parameters at once", "ffdBulk", []),
     ("axis: reference axis and variables", "ffdAxis", []),
     ("A box of type axis", "ffdAxisDeformation", []),
     ("A box of type lattice", "ffdLatticeFile", []),
     ("A box around patches", "ffdFit", []),
-    ("constraints of shapes", "shapeConstraint",
-     ["shapeConstraint", "shapeConstraints"]),
+    (
+        "constraints of shapes",
+        "shapeConstraint",
+        ["shapeConstraint", "shapeConstraints"],
+    ),
     ("Function object motionControls", "motionControls", []),
     ("Function object catalyst", "catalystFunctionObject", []),
-    ("A channel of catalyst: mesh", "meshChannel",
-     ["meshChannel", "catalystChannel"]),
-    ("A channel of catalyst: controls", "controlsChannel",
-     ["controlsChannel", "catalystChannel"]),
+    (
+        "A channel of catalyst: mesh",
+        "meshChannel",
+        ["meshChannel", "catalystChannel"],
+    ),
+    (
+        "A channel of catalyst: controls",
+        "controlsChannel",
+        ["controlsChannel", "catalystChannel"],
+    ),
 ]
 
 # Entries whose values need more than a row: what they are, and the class
@@ -100,7 +140,7 @@ NOT_AN_ENTRY = {
 
 def header(name):
     """The header of a class of ours, by its name."""
-    found = sorted((ROOT/"src").rglob(name + ".H"))
+    found = sorted((ROOT / "src").rglob(name + ".H"))
     found = [path for path in found if "lnInclude" not in path.parts]
     if len(found) != 1:
         raise SystemExit(f"reference.py: there is no header {name}.H in src")
@@ -111,16 +151,22 @@ def entries_read(text):
     """The names of dictionary entries in a C++ source: those that it takes
     from a dictionary, and those that it allows there."""
     text = re.sub(r"//.*", "", text)
-    methods = (r"get|getOrDefault|getCheck\w*|found|findDict|subDict\w*|lookup"
-               r"|findEntry|isDict|readIfPresent|readEntry|optionalSubDict")
+    methods = (
+        r"get|getOrDefault|getCheck\w*|found|findDict|subDict\w*|lookup"
+        r"|findEntry|isDict|readIfPresent|readEntry|optionalSubDict"
+    )
     names = re.findall(
-        rf"(?:\.|->|\b)(?:{methods})(?:<[^()]*>)?\s*\(\s*\"(\w+)\"", text)
+        rf"(?:\.|->|\b)(?:{methods})(?:<[^()]*>)?\s*\(\s*\"(\w+)\"", text
+    )
     # Through a function of ours: (dict, "entry", or (name, dict) of a Function1
     names += re.findall(r"\(\s*\w*[dD]ict\w*(?:\(\))?,\s*\"(\w+)\"", text)
     names += re.findall(r"::New\s*\(\s*\"(\w+)\",\s*\w*[dD]ict", text)
     # Lists of names
-    lists = re.findall(r"(?:onlyKeys\s*\([^{;]*|wordList(?: \w+)?\s*\(\s*|"
-                       r"return )\{([^{};]*)\}", text)
+    lists = re.findall(
+        r"(?:onlyKeys\s*\([^{;]*|wordList(?: \w+)?\s*\(\s*|"
+        r"return )\{([^{};]*)\}",
+        text,
+    )
     for call in re.findall(r"(?:onlyKeys|checkValues)\s*\(([^;]*);", text):
         lists += re.findall(r"\{([^{};]*)\}", call)
     lists += re.findall(r"keys\.append\((\"\w+\")\)", text)
@@ -133,17 +179,22 @@ def entries_read(text):
 
 
 def source_text(name):
-    found = [path for path in (ROOT/"src").rglob(name + ".C")
-             if "lnInclude" not in path.parts]
+    found = [
+        path
+        for path in (ROOT / "src").rglob(name + ".C")
+        if "lnInclude" not in path.parts
+    ]
     return found[0].read_text() if found else ""
 
 
 def entries_of(name, sources):
     """What the sources of a dictionary read."""
     return READ_BY_OPENFOAM.get(name, set()) | {
-        entry for source in sources or [name]
+        entry
+        for source in sources or [name]
         for entry in entries_read(source_text(source))
-        if (source, entry) not in NOT_AN_ENTRY}
+        if (source, entry) not in NOT_AN_ENTRY
+    }
 
 
 def anchor(title):
@@ -156,7 +207,8 @@ def index(dictionaries):
     for title, name, _ in dictionaries:
         for row in header(name).entries():
             places.setdefault(plain(row[0]), []).append(
-                f"[{title}](#{anchor(title)})")
+                f"[{title}](#{anchor(title)})"
+            )
     lines = ["| Entry | In |", "| --- | --- |"]
     for entry in sorted(places, key=str.lower):
         where = list(dict.fromkeys(places[entry]))
@@ -197,15 +249,20 @@ def page():
     for title, name, _ in DICTIONARIES:
         head = header(name)
         notes = head.markdown("Note")
-        parts += [heading(title),
-                  head.markdown("Description"),
-                  head.markdown("Usage"),
-                  notes and "**Notes**",
-                  notes]
+        parts += [
+            heading(title),
+            head.markdown("Description"),
+            head.markdown("Usage"),
+            notes and "**Notes**",
+            notes,
+        ]
     for title, name in EXPLAINED:
         head = header(name)
-        parts += [heading(title),
-                  head.markdown("Description"), head.markdown("Note")]
+        parts += [
+            heading(title),
+            head.markdown("Description"),
+            head.markdown("Note"),
+        ]
     return linked("\n\n".join(filter(None, parts))) + "\n"
 
 

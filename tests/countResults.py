@@ -29,8 +29,9 @@ class Count:
 
     def __str__(self):
         skipped = sum(self.reasons.values())
-        return (f"{self.passed} passed, {self.failed} failed"
-                + (f", {skipped} skipped" if skipped else ""))
+        return f"{self.passed} passed, {self.failed} failed" + (
+            f", {skipped} skipped" if skipped else ""
+        )
 
 
 def reason(case, skipped):
@@ -63,8 +64,9 @@ def main(folder, suites):
     print()
     for suite in suites:
         folder = pathlib.Path(folder)
-        reports = sorted({*folder.glob(f"{suite}.xml"),
-                          *folder.glob(f"{suite}.*.xml")})
+        reports = sorted(
+            {*folder.glob(f"{suite}.xml"), *folder.glob(f"{suite}.*.xml")}
+        )
         found = Count()
         found.failed += not reports
         for report in reports:

@@ -187,9 +187,7 @@ def nozzle(n=72, m=40):
     angle = 2 * np.pi * np.arange(n) / n
     rings = np.stack(
         [
-            np.stack(
-                [np.full(n, a), r * np.cos(angle), r * np.sin(angle)], 1
-            )
+            np.stack([np.full(n, a), r * np.cos(angle), r * np.sin(angle)], 1)
             for a, r in outline
         ]
     )

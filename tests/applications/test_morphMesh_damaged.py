@@ -23,12 +23,16 @@ def replaced(pattern, by):
 
 DAMAGED = {
     "a point of a face beyond all": (
-        "faces", replaced(r"\n4\(\d+", "\n4(99999")),
+        "faces",
+        replaced(r"\n4\(\d+", "\n4(99999"),
+    ),
     "faces without end": ("faces", replaced(r"\n240\n", "\n2000000000\n")),
     "a negative owner": ("owner", replaced(r"\n\(\n\d+", "\n(\n-7")),
     "an owner beyond memory": (
-        "owner", replaced(r"\n\(\n\d+", "\n(\n2000000000")),
-    "points that are cut": ("points", lambda text: text[:len(text)//2]),
+        "owner",
+        replaced(r"\n\(\n\d+", "\n(\n2000000000"),
+    ),
+    "points that are cut": ("points", lambda text: text[: len(text) // 2]),
     "no position": ("points", replaced(r"\n\(0 0 0\)", "\n(1e300 0 0)")),
     "overflow": ("points", replaced(r"\n\(0 0 0\)", "\n(1e400 0 0)")),
     "patches without end": ("boundary", replaced(r"\n6\n", "\n2000000000\n")),
@@ -40,7 +44,7 @@ DAMAGED = {
 @pytest.mark.parametrize("file, damage", DAMAGED.values(), ids=DAMAGED)
 def test_a_damaged_file_of_the_mesh_is_an_error(tmp_path, file, damage):
     case = ffd_case(tmp_path, BOX, cells=(4, 4, 4))
-    path = case.path/"constant/polyMesh"/file
+    path = case.path / "constant/polyMesh" / file
     text = path.read_text()
     assert damage(text) != text
     path.write_text(damage(text))
@@ -53,7 +57,7 @@ def test_a_damaged_file_of_the_mesh_is_an_error(tmp_path, file, damage):
 
 def test_a_zone_of_another_mesh_is_named(tmp_path):
     case = rbf(tmp_path)
-    zones = case.path/"constant/polyMesh/pointZones"
+    zones = case.path / "constant/polyMesh/pointZones"
     zones.write_text(zones.read_text().replace("37", "99999"))
     output = case.run("morphMesh", status=1)
     for phrase in ("'zone'", "'middle'", "pointZones", "99999"):
@@ -62,7 +66,7 @@ def test_a_zone_of_another_mesh_is_named(tmp_path):
 
 def test_a_zone_too_long_to_be_read_is_an_error(tmp_path):
     case = rbf(tmp_path)
-    zones = case.path/"constant/polyMesh/pointZones"
+    zones = case.path / "constant/polyMesh/pointZones"
     zones.write_text(zones.read_text().replace("2(37 38)", "2000000000{1}"))
     assert "polyMesh" in case.run("morphMesh", status=1)
 

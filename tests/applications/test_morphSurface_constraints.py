@@ -21,10 +21,10 @@ def cube_surface():
     index, points, faces = {}, [], []
 
     def vertex(x):
-        key = tuple(np.round(np.array(x)*N).astype(int))
+        key = tuple(np.round(np.array(x) * N).astype(int))
         if key not in index:
             index[key] = len(points)
-            points.append(tuple(k/N for k in key))
+            points.append(tuple(k / N for k in key))
         return index[key]
 
     for axis in range(3):
@@ -32,14 +32,22 @@ def cube_surface():
             for i in range(N):
                 for j in range(N):
                     corners = []
-                    for u, v in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                    for u, v in (
+                        (i, j),
+                        (i + 1, j),
+                        (i + 1, j + 1),
+                        (i, j + 1),
+                    ):
                         x = np.empty(3)
                         x[axis] = end
-                        x[(axis + 1) % 3], x[(axis + 2) % 3] = u/N, v/N
+                        x[(axis + 1) % 3], x[(axis + 2) % 3] = u / N, v / N
                         corners.append(vertex(x))
                     if not end:
                         corners.reverse()
-                    faces += [corners[:3], [corners[0], corners[2], corners[3]]]
+                    faces += [
+                        corners[:3],
+                        [corners[0], corners[2], corners[3]],
+                    ]
     return np.array(points), faces
 
 
@@ -64,9 +72,14 @@ CONSTRAINTS = """constraints
 
 def boxes(a=0.2, b=-0.1):
     return ffd_box(
-        "box", parameter("a", [((1, 1, 1), (0.4, 0.3, 0.5)),
-                               ((2, 1, 2), (0.1, 0.2, 0.3))], repr(a))
-        + parameter("b", [((0, 1, 2), (0.3, -0.2, 0.6))], repr(b)))
+        "box",
+        parameter(
+            "a",
+            [((1, 1, 1), (0.4, 0.3, 0.5)), ((2, 1, 2), (0.1, 0.2, 0.3))],
+            repr(a),
+        )
+        + parameter("b", [((0, 1, 2), (0.3, -0.2, 0.6))], repr(b)),
+    )
 
 
 def table(path):
@@ -77,23 +90,28 @@ def table(path):
 def evaluated(path, box, constraints=CONSTRAINTS):
     points, faces = cube_surface()
     path.mkdir(exist_ok=True)
-    write_surface(path/"other.obj", [(-9, -9, 3), (9, -9, 3),
-                                     (0, 9, 3)], [(0, 1, 2)])
+    write_surface(
+        path / "other.obj", [(-9, -9, 3), (9, -9, 3), (0, 9, 3)], [(0, 1, 2)]
+    )
     morphed(path, points, faces, box, constraints, ["-constraints"])
-    return (table(path/"out.constraints.dat"),
-            table(path/"out.constraintDerivatives.dat"))
+    return (
+        table(path / "out.constraints.dat"),
+        table(path / "out.constraintDerivatives.dat"),
+    )
 
 
 def test_derivatives_are_those_of_central_differences(tmp_path):
     h = 1e-5
-    _, derivatives = evaluated(tmp_path/"at", boxes())
+    _, derivatives = evaluated(tmp_path / "at", boxes())
     for column, change in ((0, dict(a=0.2 + h)), (1, dict(b=-0.1 + h))):
-        up, _ = evaluated(tmp_path/"up", boxes(**change))
-        down, _ = evaluated(tmp_path/"down", boxes(
-            **{k: v - 2*h for k, v in change.items()}))
+        up, _ = evaluated(tmp_path / "up", boxes(**change))
+        down, _ = evaluated(
+            tmp_path / "down",
+            boxes(**{k: v - 2 * h for k, v in change.items()}),
+        )
         assert set(up) == set(derivatives) and len(up) == 15
         for name in derivatives:
-            slope = (float(up[name][0]) - float(down[name][0]))/(2*h)
+            slope = (float(up[name][0]) - float(down[name][0])) / (2 * h)
             exact = float(derivatives[name][column])
             assert exact == pytest.approx(slope, rel=1e-8, abs=1e-8), name
 
@@ -101,8 +119,14 @@ def test_derivatives_are_those_of_central_differences(tmp_path):
 def stretched(value=0.3):
     """Linear in z: the cube becomes a box of height 1 + value."""
     moves = [((i, j, 1), (0, 0, 1)) for i in (0, 1) for j in (0, 1)]
-    return ffd_box("box", parameter("a", moves, repr(value)), order=(1, 1, 1),
-                   origin=(0, 0, 0), span=(1, 1, 1), extra="continuity none;")
+    return ffd_box(
+        "box",
+        parameter("a", moves, repr(value)),
+        order=(1, 1, 1),
+        origin=(0, 0, 0),
+        span=(1, 1, 1),
+        extra="continuity none;",
+    )
 
 
 def test_values_and_violations_of_a_stretched_cube(tmp_path):
@@ -115,7 +139,7 @@ def test_values_and_violations_of_a_stretched_cube(tmp_path):
     assert float(values["ratio.0"][4]) == pytest.approx(0.2, abs=1e-14)
     assert value["nose.0z"] == pytest.approx(-0.15, abs=1e-14)
     assert value["nose.0x"] == 0
-    assert value["all"] == pytest.approx(2 + 4*0.7, abs=1e-13)
+    assert value["all"] == pytest.approx(2 + 4 * 0.7, abs=1e-13)
     assert value["tank"] == pytest.approx(0.7, abs=1e-14)
     assert float(values["tank"][1]) == pytest.approx(1, abs=1e-14)
     assert value["middle.z"] == pytest.approx(0.35, abs=1e-14)
@@ -125,23 +149,42 @@ def test_values_and_violations_of_a_stretched_cube(tmp_path):
     assert float(derivatives["all"][0]) == pytest.approx(4, abs=1e-13)
 
 
-@pytest.mark.parametrize("entries, words", [
-    ("c { type girth; }", ["girth", "thickness", "volume"]),
-    ("c { type thickness; stations ((5 5 5)); direction (0 0 1); }",
-     ["'stations'", "(5 5 5)", "within the body"]),
-    ("c { type thicknessToChord; stations ((0.5 0.5 0.5)); direction (0 0 1);"
-     " leading (); trailing (); }", ["1, 0 and 0", "for each station"]),
-    ("c { type volume; min 2; max 1; }", ["'max' is 1"]),
-    ("c { type volume; colour 2; }", ["'colour'"]),
-    ("c { type edge; points ((0 0 0)); relative yes; }",
-     ["c.0x", "zero before"]),
-    ("c { type distance; surface \"none.obj\"; }", ["no file", "none.obj"]),
-    ("c 1;", ["'c'", "dictionary"])])
+@pytest.mark.parametrize(
+    "entries, words",
+    [
+        ("c { type girth; }", ["girth", "thickness", "volume"]),
+        (
+            "c { type thickness; stations ((5 5 5)); direction (0 0 1); }",
+            ["'stations'", "(5 5 5)", "within the body"],
+        ),
+        (
+            "c { type thicknessToChord; stations ((0.5 0.5 0.5)); direction (0 0 1);"
+            " leading (); trailing (); }",
+            ["1, 0 and 0", "for each station"],
+        ),
+        ("c { type volume; min 2; max 1; }", ["'max' is 1"]),
+        ("c { type volume; colour 2; }", ["'colour'"]),
+        (
+            "c { type edge; points ((0 0 0)); relative yes; }",
+            ["c.0x", "zero before"],
+        ),
+        ('c { type distance; surface "none.obj"; }', ["no file", "none.obj"]),
+        ("c 1;", ["'c'", "dictionary"]),
+    ],
+)
 def test_a_wrong_constraint_is_an_error_that_helps(tmp_path, entries, words):
     points, faces = cube_surface()
-    output = " ".join(morphed(
-        tmp_path, points, faces, boxes(), f"constraints {{ {entries} }}",
-        ["-constraints"], status=1).split())
+    output = " ".join(
+        morphed(
+            tmp_path,
+            points,
+            faces,
+            boxes(),
+            f"constraints {{ {entries} }}",
+            ["-constraints"],
+            status=1,
+        ).split()
+    )
     assert "FOAM FATAL IO ERROR" in output
     for word in words:
         assert word in output, (word, output)
@@ -149,7 +192,13 @@ def test_a_wrong_constraint_is_an_error_that_helps(tmp_path, entries, words):
 
 def test_an_open_surface_has_no_volume(tmp_path):
     points, faces = cube_surface()
-    output = morphed(tmp_path, points, faces[:-30], boxes(),
-                     "constraints { c { type volume; } }", ["-constraints"],
-                     status=1)
+    output = morphed(
+        tmp_path,
+        points,
+        faces[:-30],
+        boxes(),
+        "constraints { c { type volume; } }",
+        ["-constraints"],
+        status=1,
+    )
     assert "open" in output and "close it" in output

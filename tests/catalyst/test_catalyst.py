@@ -76,9 +76,10 @@ def catalyst_execute(info):
 
 MOTION = rbfCase.groups(
     top="type moving; patches (zMax); displacement { type solidBody;"
-        " solidBodyMotionFunction linearMotion;"
-        " linearMotionCoeffs { velocity (0.02 0 0.1); } }",
-    bottom="type fixed; patches (zMin);")
+    " solidBodyMotionFunction linearMotion;"
+    " linearMotionCoeffs { velocity (0.02 0 0.1); } }",
+    bottom="type fixed; patches (zMin);",
+)
 
 MESH = 'region { patches ("z.*"); }'
 CONTROLS = "controls { type controls; }"
@@ -86,21 +87,26 @@ CONTROLS = "controls { type controls; }"
 
 @pytest.fixture(scope="module", autouse=True)
 def library():
-    found = list((ROOT/"build").glob("*/lib/libmorphCatalyst.so"))
+    found = list((ROOT / "build").glob("*/lib/libmorphCatalyst.so"))
     if not found and not os.environ.get("MORPHFOAM_OWN_OPENFOAM"):
         pytest.skip("ParaView's development files are not on this machine")
 
 
 def in_situ_case(path, inputs=MESH + CONTROLS, scripts=("record.py",), **mesh):
-    case = rbfCase.rbf_case(path, coeffs="supportRadius 1.5;\n" + MOTION,
-                            control={"end": 2, "deltaT": 1}, **mesh)
-    (case.path/"system/record.py").write_text(RECORD)
+    case = rbfCase.rbf_case(
+        path,
+        coeffs="supportRadius 1.5;\n" + MOTION,
+        control={"end": 2, "deltaT": 1},
+        **mesh,
+    )
+    (case.path / "system/record.py").write_text(RECORD)
     listed = " ".join(f'"<system>/{name}"' for name in scripts)
-    control = (case.path/"system/controlDict").read_text()
-    (case.path/"system/controlDict").write_text(
+    control = (case.path / "system/controlDict").read_text()
+    (case.path / "system/controlDict").write_text(
         control + "functions { catalyst { type catalyst; libs (morphCatalyst);"
         f" executeControl timeStep; scripts ({listed});"
-        f" inputs {{ {inputs} }} }} }}\n")
+        f" inputs {{ {inputs} }} }} }}\n"
+    )
     return case
 
 
@@ -108,10 +114,18 @@ def run(case, *command, ranks=1, status=0):
     """As FoamCase.run, with a display for ParaView."""
     parallel = ["mpirun", "--oversubscribe", "-np", str(ranks)]
     result = subprocess.run(
-        [str(ROOT/"bin/withDisplay"), *(parallel if ranks > 1 else []),
-         *command, *(["-parallel"] if ranks > 1 else [])],
-        cwd=case.path, env={**environment(), "PWD": str(case.path)},
-        timeout=60, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        [
+            str(ROOT / "bin/withDisplay"),
+            *(parallel if ranks > 1 else []),
+            *command,
+            *(["-parallel"] if ranks > 1 else []),
+        ],
+        cwd=case.path,
+        env={**environment(), "PWD": str(case.path)},
+        timeout=60,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     output = result.stdout.decode(errors="replace")
     assert result.returncode == status, output[-4000:]
     return output
@@ -119,10 +133,16 @@ def run(case, *command, ranks=1, status=0):
 
 def records(case):
     """What each rank got at each time: [[rank 0, rank 1, ...], ...]."""
-    return list(zip(*(
-        [json.loads(line) for line in file.read_text().splitlines()]
-        for file in sorted(
-            case.path.glob("postProcessing/catalyst/record*.json")))))
+    return list(
+        zip(
+            *(
+                [json.loads(line) for line in file.read_text().splitlines()]
+                for file in sorted(
+                    case.path.glob("postProcessing/catalyst/record*.json")
+                )
+            )
+        )
+    )
 
 
 def merged(parts, path):
@@ -131,18 +151,23 @@ def merged(parts, path):
     bounds = np.array([block["bounds"] for block in blocks]).reshape(-1, 3, 2)
     return {
         "cells": sum(block["cells"] for block in blocks),
-        "low": bounds[:, :, 0].min(axis=0), "high": bounds[:, :, 1].max(axis=0),
+        "low": bounds[:, :, 0].min(axis=0),
+        "high": bounds[:, :, 1].max(axis=0),
         "volume": sum((block.get("volume", []) for block in blocks), []),
-        "values": {name: np.concatenate([b["values"][name] for b in blocks])
-                   for name in blocks[0]["values"]}}
+        "values": {
+            name: np.concatenate([b["values"][name] for b in blocks])
+            for name in blocks[0]["values"]
+        },
+    }
 
 
 def test_control_points_of_several_steps_arrive(tmp_path):
     # Source of truth: morphMesh of one step has the same candidates
     case = in_situ_case(tmp_path)
-    text = (case.path/"constant/dynamicMeshDict").read_text()
-    (case.path/"constant/dynamicMeshDict").write_text(
-        text.replace("supportRadius", "subSteps 3; supportRadius"))
+    text = (case.path / "constant/dynamicMeshDict").read_text()
+    (case.path / "constant/dynamicMeshDict").write_text(
+        text.replace("supportRadius", "subSteps 3; supportRadius")
+    )
     run(case, "moveDynamicMesh")
     last = records(case)[-1][0]
     shown = last["/controlPoints"]
@@ -151,7 +176,7 @@ def test_control_points_of_several_steps_arrive(tmp_path):
 
 @pytest.fixture(scope="module", params=[1, 2])
 def recorded(request, tmp_path_factory):
-    case = in_situ_case(tmp_path_factory.mktemp("inSitu")/"case")
+    case = in_situ_case(tmp_path_factory.mktemp("inSitu") / "case")
     if request.param > 1:
         case.decompose((2, 1, 1))
     run(case, "moveDynamicMesh", ranks=request.param)
@@ -167,7 +192,7 @@ def test_points_are_sent_when_they_moved(recorded):
         cells = merged(parts, "/internal")
         np.testing.assert_array_equal(cells["low"], points.min(axis=0))
         np.testing.assert_array_equal(cells["high"], points.max(axis=0))
-        assert cells["high"][2] == 1 + 0.1*time
+        assert cells["high"][2] == 1 + 0.1 * time
 
 
 def test_cells_are_those_of_the_mesh(recorded):
@@ -183,10 +208,12 @@ def test_patches_are_blocks(recorded):
     for parts in sent:
         for part in parts:
             assert {path for path in part if path.startswith("/boundary")} == {
-                "/boundary/zMin", "/boundary/zMax"}
+                "/boundary/zMin",
+                "/boundary/zMax",
+            }
         top = merged(parts, "/boundary/zMax")
         assert top["cells"] == 16
-        assert top["low"][2] == top["high"][2] == 1 + 0.1*parts[0]["time"]
+        assert top["low"][2] == top["high"][2] == 1 + 0.1 * parts[0]["time"]
 
 
 def test_control_points_come_with_their_values(recorded):
@@ -195,15 +222,22 @@ def test_control_points_come_with_their_values(recorded):
         controls = merged(parts, "/controlPoints")
         assert controls["cells"] == 50
         values = controls["values"]
-        assert set(values) == {"conditions", "selected", "weight",
-                               "displacement", "error"}
+        assert set(values) == {
+            "conditions",
+            "selected",
+            "weight",
+            "displacement",
+            "error",
+        }
         np.testing.assert_allclose(
             np.linalg.norm(values["displacement"], axis=1).max(),
-            parts[0]["time"]*np.hypot(0.02, 0.1), rtol=1e-14)
+            parts[0]["time"] * np.hypot(0.02, 0.1),
+            rtol=1e-14,
+        )
 
 
 def test_polyhedra_have_their_volume(tmp_path):
-    case = in_situ_case(tmp_path/"case")
+    case = in_situ_case(tmp_path / "case")
     case.run("polyDualMesh", "80", "-overwrite")
     run(case, "moveDynamicMesh")
     cells = merged(records(case)[0], "/internal")
@@ -216,49 +250,72 @@ def test_polyhedra_have_their_volume(tmp_path):
 
 
 def test_fields_are_those_that_are_written(tmp_path):
-    case = in_situ_case(tmp_path/"case", "region { fields (U); boundary no; }")
-    case.write("0/U", "volVectorField",
-               "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0);"
-               'boundaryField { ".*" { type slip; } "z.*" {'
-               " type movingWallVelocity; value uniform (0 0 0); } "
-               '"x.*" { type zeroGradient; } }')
-    case.write("0/p", "volScalarField",
-               "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
-               'boundaryField { ".*" { type zeroGradient; } "x.*" {'
-               " type fixedValue; value uniform 0; } }")
-    case.write("constant/transportProperties", "dictionary",
-               "transportModel Newtonian; nu 0.01;")
-    case.write("constant/turbulenceProperties", "dictionary",
-               "simulationType laminar;")
-    case.write("system/fvSchemes", "dictionary",
-               "ddtSchemes { default Euler; } gradSchemes { default Gauss"
-               " linear; } divSchemes { default Gauss linear; } "
-               "laplacianSchemes { default Gauss linear corrected; } "
-               "interpolationSchemes { default linear; } "
-               "snGradSchemes { default corrected; }")
-    case.write("system/fvSolution", "dictionary",
-               'solvers { ".*" { solver PCG; preconditioner DIC;'
-               " tolerance 1e-10; relTol 0; }"
-               ' "U.*" { solver PBiCGStab; preconditioner DILU;'
-               " tolerance 1e-10; relTol 0; } }"
-               " PIMPLE { nCorrectors 2; correctPhi no; }")
+    case = in_situ_case(
+        tmp_path / "case", "region { fields (U); boundary no; }"
+    )
+    case.write(
+        "0/U",
+        "volVectorField",
+        "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0);"
+        'boundaryField { ".*" { type slip; } "z.*" {'
+        " type movingWallVelocity; value uniform (0 0 0); } "
+        '"x.*" { type zeroGradient; } }',
+    )
+    case.write(
+        "0/p",
+        "volScalarField",
+        "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
+        'boundaryField { ".*" { type zeroGradient; } "x.*" {'
+        " type fixedValue; value uniform 0; } }",
+    )
+    case.write(
+        "constant/transportProperties",
+        "dictionary",
+        "transportModel Newtonian; nu 0.01;",
+    )
+    case.write(
+        "constant/turbulenceProperties",
+        "dictionary",
+        "simulationType laminar;",
+    )
+    case.write(
+        "system/fvSchemes",
+        "dictionary",
+        "ddtSchemes { default Euler; } gradSchemes { default Gauss"
+        " linear; } divSchemes { default Gauss linear; } "
+        "laplacianSchemes { default Gauss linear corrected; } "
+        "interpolationSchemes { default linear; } "
+        "snGradSchemes { default corrected; }",
+    )
+    case.write(
+        "system/fvSolution",
+        "dictionary",
+        'solvers { ".*" { solver PCG; preconditioner DIC;'
+        " tolerance 1e-10; relTol 0; }"
+        ' "U.*" { solver PBiCGStab; preconditioner DILU;'
+        " tolerance 1e-10; relTol 0; } }"
+        " PIMPLE { nCorrectors 2; correctPhi no; }",
+    )
     run(case, "pimpleFoam")
-    for part, in records(case):
+    for (part,) in records(case):
         written = case.points(f"{int(part['time'])}/U")
         assert np.abs(written).max() > 0.01
         np.testing.assert_allclose(
-            part["/internal"]["values"]["U"], written, rtol=1e-14)
+            part["/internal"]["values"]["U"], written, rtol=1e-14
+        )
         assert not [path for path in part if path.startswith("/boundary")]
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_a_script_that_fails_is_a_warning(tmp_path, ranks):
-    case = in_situ_case(tmp_path/"case",
-                        scripts=("broken.py", "missing.py", "record.py"))
-    (case.path/"system/broken.py").write_text(
+    case = in_situ_case(
+        tmp_path / "case", scripts=("broken.py", "missing.py", "record.py")
+    )
+    (case.path / "system/broken.py").write_text(
         "# script-version: 2.0\nfrom paraview.simple import *\n"
         'region = TrivialProducer(registrationName="region")\n'
-        "def catalyst_execute(info):\n    raise RuntimeError('on purpose')\n")
+        "def catalyst_execute(info):\n    raise RuntimeError('on purpose')\n"
+    )
     if ranks > 1:
         case.decompose((1, 2, 1))
     output = run(case, "moveDynamicMesh", ranks=ranks)
@@ -267,12 +324,16 @@ def test_a_script_that_fails_is_a_warning(tmp_path, ranks):
     assert [parts[0]["time"] for parts in records(case)] == [1, 2]
 
 
-@pytest.mark.parametrize("inputs, message", [
-    ("", "'inputs' names no channel"),
-    ("region { type volume; }", "Use one of (controls mesh)"),
-    ("region { field (p); }", "field"),
-    ("region yes;", "has to be a dictionary")])
+@pytest.mark.parametrize(
+    "inputs, message",
+    [
+        ("", "'inputs' names no channel"),
+        ("region { type volume; }", "Use one of (controls mesh)"),
+        ("region { field (p); }", "field"),
+        ("region yes;", "has to be a dictionary"),
+    ],
+)
 def test_wrong_inputs_are_errors(tmp_path, inputs, message):
-    case = in_situ_case(tmp_path/"case", inputs)
+    case = in_situ_case(tmp_path / "case", inputs)
     output = run(case, "moveDynamicMesh", status=1)
     assert "FOAM FATAL IO ERROR" in output and message in output

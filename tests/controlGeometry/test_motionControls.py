@@ -22,41 +22,50 @@ def read_vtk(path):
     words = path.read_text().split()
     at = words.index("POINTS")
     n = int(words[at + 1])
-    points = np.array(words[at + 3:at + 3 + 3*n], float).reshape(n, 3)
+    points = np.array(words[at + 3 : at + 3 + 3 * n], float).reshape(n, 3)
     at = words.index("FIELD")
     data, count = {}, int(words[at + 2])
     at += 3
     for _ in range(count):
         name, width = words[at], int(words[at + 1])
-        values = np.array(words[at + 4:at + 4 + width*n], float)
+        values = np.array(words[at + 4 : at + 4 + width * n], float)
         data[name] = values.reshape(n, width) if width > 1 else values
-        at += 4 + width*n
+        at += 4 + width * n
     return points, data
 
 
 def controlled_case(path, functions, **ranks):
     case = rbfCase.rbf_case(
-        path, coeffs=f"supportRadius {RADIUS};\n" + rbfCase.groups(
+        path,
+        coeffs=f"supportRadius {RADIUS};\n"
+        + rbfCase.groups(
             top="type moving; patches (zMax);"
-                " displacement { type uniform; value (0.01 0 0.05); }",
+            " displacement { type uniform; value (0.01 0 0.05); }",
             bottom="type fixed; patches (zMin);",
             walls='type sliding; patches ("[xy].*");',
             probe="type moving; points ((0.5 0.5 0.45));"
-                  " displacement { type values; values ((0 0 0.03)); }"))
-    control = (case.path/"system/controlDict").read_text()
-    (case.path/"system/controlDict").write_text(
+            " displacement { type values; values ((0 0 0.03)); }",
+        ),
+    )
+    control = (case.path / "system/controlDict").read_text()
+    (case.path / "system/controlDict").write_text(
         control + f"functions {{ controls {{ type motionControls;"
-        f" libs (morphMotionSolvers); {functions} }} }}\n")
+        f" libs (morphMotionSolvers); {functions} }} }}\n"
+    )
     return case
 
 
 @pytest.fixture(scope="module")
 def shown(tmp_path_factory):
-    case = controlled_case(tmp_path_factory.mktemp("controls"),
-                           "writeControl writeTime;")
+    case = controlled_case(
+        tmp_path_factory.mktemp("controls"), "writeControl writeTime;"
+    )
     moved = rbfCase.move(case)
-    return case, moved, *read_vtk(
-        case.path/"postProcessing/controls/1/controlPoints.vtk")
+    return (
+        case,
+        moved,
+        *read_vtk(case.path / "postProcessing/controls/1/controlPoints.vtk"),
+    )
 
 
 def test_control_points_are_where_they_went(shown):
@@ -65,7 +74,8 @@ def test_control_points_are_where_they_went(shown):
     top = before[:, 2] > 1 - 1e-9
     assert top.sum() == 25
     np.testing.assert_allclose(
-        data["displacement"][top], [[0.01, 0, 0.05]]*25, atol=1e-15)
+        data["displacement"][top], [[0.01, 0, 0.05]] * 25, atol=1e-15
+    )
     # All but the listed one are mesh points
     off = [x for x in points if np.abs(moved - x).max(axis=1).min() > 1e-14]
     np.testing.assert_allclose(off, [[0.5, 0.5, 0.48]], atol=1e-14)
@@ -74,10 +84,13 @@ def test_control_points_are_where_they_went(shown):
 def test_kinds_are_told(shown):
     _, _, points, data = shown
     before = points - data["displacement"]
-    on_wall = (np.abs(before[:, :2] - 0.5) > 0.5 - 1e-9)
+    on_wall = np.abs(before[:, :2] - 0.5) > 0.5 - 1e-9
     inside = (before[:, 2] > 1e-9) & (before[:, 2] < 1 - 1e-9)
-    expected = np.where(inside & on_wall.all(axis=1), 2,
-                        np.where(inside & on_wall.any(axis=1), 1, 3))
+    expected = np.where(
+        inside & on_wall.all(axis=1),
+        2,
+        np.where(inside & on_wall.any(axis=1), 1, 3),
+    )
     np.testing.assert_array_equal(data["conditions"], expected)
 
 
@@ -89,50 +102,64 @@ def test_weights_make_the_field(shown):
     assert not data["weight"][~selected].any()
     x = moved[np.abs(moved - [0.5, 0.5, 0.5]).max(axis=1) < 0.2]
     assert len(x) == 1
-    r = np.linalg.norm([0.5, 0.5, 0.5] - centres, axis=1)/RADIUS
-    phi = np.where(r < 1, (1 - r)**4*(4*r + 1), 0)
+    r = np.linalg.norm([0.5, 0.5, 0.5] - centres, axis=1) / RADIUS
+    phi = np.where(r < 1, (1 - r) ** 4 * (4 * r + 1), 0)
     np.testing.assert_allclose(
-        x[0] - [0.5, 0.5, 0.5], phi @ data["weight"], atol=1e-14)
+        x[0] - [0.5, 0.5, 0.5], phi @ data["weight"], atol=1e-14
+    )
 
 
 def test_ranks_show_the_same(shown, tmp_path):
     _, _, points, data = shown
-    case = controlled_case(tmp_path/"parallel", "writeControl writeTime;")
+    case = controlled_case(tmp_path / "parallel", "writeControl writeTime;")
     case.decompose((2, 1, 1))
     case.run("moveDynamicMesh", ranks=2)
     x, values = read_vtk(
-        case.path/"postProcessing/controls/1/controlPoints.vtk")
+        case.path / "postProcessing/controls/1/controlPoints.vtk"
+    )
     order, reference = np.lexsort(x.T), np.lexsort(points.T)
     np.testing.assert_array_equal(x[order], points[reference])
     for name in data:
         np.testing.assert_array_equal(
-            values[name][order], data[name][reference])
+            values[name][order], data[name][reference]
+        )
 
 
 def test_a_mesh_without_our_solver_is_a_warning(tmp_path):
-    case = controlled_case(tmp_path/"other", "writeControl writeTime;")
-    case.write("constant/dynamicMeshDict", "dictionary",
-               "dynamicFvMesh staticFvMesh;")
+    case = controlled_case(tmp_path / "other", "writeControl writeTime;")
+    case.write(
+        "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;"
+    )
     output = case.run("moveDynamicMesh")
     assert re.search("has no motion solver that could", output)
-    assert not (case.path/"postProcessing/controls").exists()
+    assert not (case.path / "postProcessing/controls").exists()
 
 
 def test_weights_of_points_that_have_images(tmp_path):
     case = rbfCase.rbf_case(
-        tmp_path, patches={**rbfCase.CUBE, "yMin": "symmetryPlane",
-                           "xMin": "cyclic; neighbourPatch xMax;",
-                           "xMax": "cyclic; neighbourPatch xMin;"},
-        coeffs="images yes;\nsupportRadius 0.8;\n" + rbfCase.groups(
+        tmp_path,
+        patches={
+            **rbfCase.CUBE,
+            "yMin": "symmetryPlane",
+            "xMin": "cyclic; neighbourPatch xMax;",
+            "xMax": "cyclic; neighbourPatch xMin;",
+        },
+        coeffs="images yes;\nsupportRadius 0.8;\n"
+        + rbfCase.groups(
             top="type moving; patches (zMax);"
-                " displacement { type uniform; value (0 0 0.05); }",
-            bottom="type fixed; patches (zMin);"))
-    control = (case.path/"system/controlDict").read_text()
-    (case.path/"system/controlDict").write_text(
+            " displacement { type uniform; value (0 0 0.05); }",
+            bottom="type fixed; patches (zMin);",
+        ),
+    )
+    control = (case.path / "system/controlDict").read_text()
+    (case.path / "system/controlDict").write_text(
         control + "functions { controls { type motionControls;"
-        " libs (morphMotionSolvers); writeControl writeTime; } }\n")
+        " libs (morphMotionSolvers); writeControl writeTime; } }\n"
+    )
     case.run("moveDynamicMesh")
-    _, data = read_vtk(case.path/"postProcessing/controls/1/controlPoints.vtk")
+    _, data = read_vtk(
+        case.path / "postProcessing/controls/1/controlPoints.vtk"
+    )
     selected = data["selected"] == 1
     assert selected.any()
     weight = np.linalg.norm(data["weight"], axis=1)

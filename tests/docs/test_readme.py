@@ -15,12 +15,12 @@ import pytest
 from foamCase import FoamCase, environment
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-README = (ROOT/"README.md").read_text()
+README = (ROOT / "README.md").read_text()
 BLOCKS = re.findall(r"^```\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 
 
 def block(with_word):
-    found, = (b for b in BLOCKS if with_word in b)
+    (found,) = (b for b in BLOCKS if with_word in b)
     return found
 
 
@@ -30,17 +30,22 @@ def test_it_is_short():
 
 def test_what_it_points_to_is_there():
     for target in re.findall(r'\]\(([^)#:]+)\)|src="([^"]+)"', README):
-        assert (ROOT/"".join(target)).exists()
-    for command in re.findall(r"^(?:tutorials|tests|\./)\S*", block("Alltest"),
-                              re.MULTILINE):
-        assert (ROOT/command).exists()
-    for path in re.findall(r"`((?:tutorials|benchmarks|tests|docs)/[\w./]+)`",
-                           README):
-        assert (ROOT/path).exists()
+        assert (ROOT / "".join(target)).exists()
+    for command in re.findall(
+        r"^(?:tutorials|tests|\./)\S*", block("Alltest"), re.MULTILINE
+    ):
+        assert (ROOT / command).exists()
+    for path in re.findall(
+        r"`((?:tutorials|benchmarks|tests|docs)/[\w./]+)`", README
+    ):
+        assert (ROOT / path).exists()
 
 
-@pytest.mark.parametrize("picture", sorted((ROOT/"docs/pictures").glob("*")),
-                         ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "picture",
+    sorted((ROOT / "docs/pictures").glob("*")),
+    ids=lambda path: path.name,
+)
 def test_pictures_are_small(picture):
     assert picture.stat().st_size <= 150_000
 
@@ -50,9 +55,13 @@ def log(tmp_path_factory):
     case = FoamCase(tmp_path_factory.mktemp("airFoil2D"))
     shutil.copytree(
         pathlib.Path(environment()["FOAM_TUTORIALS"])
-        / "incompressible/simpleFoam/airFoil2D", case.path, dirs_exist_ok=True)
-    case.write("constant/dynamicMeshDict", "dictionary",
-               block("supportRadius 250"))
+        / "incompressible/simpleFoam/airFoil2D",
+        case.path,
+        dirs_exist_ok=True,
+    )
+    case.write(
+        "constant/dynamicMeshDict", "dictionary", block("supportRadius 250")
+    )
     return case.run("morphMesh", "-time", "1")
 
 
@@ -66,7 +75,11 @@ def test_the_dictionary_gives_the_log_it_shows(log):
     selected = re.search(r"selected \d+ of \d+ control points", shown[0])[0]
     assert selected in log
     for row in shown[2:]:
-        given = re.search(rf"^{row.split()[0]}{' '*bool(row.split()[1:])}.*$"
-                          if row[0] != "#" else "^# mesh.*$",
-                          log, re.MULTILINE)[0]
+        given = re.search(
+            rf"^{row.split()[0]}{' '*bool(row.split()[1:])}.*$"
+            if row[0] != "#"
+            else "^# mesh.*$",
+            log,
+            re.MULTILINE,
+        )[0]
         assert given.split() == row.split()

@@ -24,12 +24,13 @@ SECTION = np.array([(0, 0), (0.4, 0.06), (1, 0), (0.4, -0.06)])
 
 
 def wing(n=9, sweep=0.5):
-    points = [(x + sweep*z, y, z) for z in np.linspace(0, 3, n)
-              for x, y in SECTION]
+    points = [
+        (x + sweep * z, y, z) for z in np.linspace(0, 3, n) for x, y in SECTION
+    ]
     faces = []
     for k in range(n - 1):
         for i in range(4):
-            a, b = 4*k + i, 4*k + (i + 1) % 4
+            a, b = 4 * k + i, 4 * k + (i + 1) % 4
             faces += [(a, b, a + 4), (b, b + 4, a + 4)]
     return np.array(points), faces
 
@@ -52,28 +53,33 @@ def distances(section):
 def test_a_twisted_section_keeps_its_shape_at_ninety_degrees(tmp_path):
     """On points: 1e-12, and it is the rotation about the axis."""
     points, faces = wing()
-    moved = morphed(tmp_path, points, faces,
-                    axis("t { type twist; value 90; }"))
+    moved = morphed(
+        tmp_path, points, faces, axis("t { type twist; value 90; }")
+    )
     for before, after in zip(sections(points), sections(moved)):
         z = before[0, 2]
-        A = np.array([0.25 + 0.5*z, 0, z])
-        expected = A + (before - A) @ rotation((0, 0, 1), 30*z).T
+        A = np.array([0.25 + 0.5 * z, 0, z])
+        expected = A + (before - A) @ rotation((0, 0, 1), 30 * z).T
         np.testing.assert_allclose(after, expected, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(distances(after), distances(before),
-                                   rtol=0, atol=1e-12)
+        np.testing.assert_allclose(
+            distances(after), distances(before), rtol=0, atol=1e-12
+        )
     assert np.abs(sections(moved)[-1][0] - sections(points)[-1][0]).max() > 0.2
 
 
 def test_a_section_at_a_layer_of_a_lattice_keeps_its_shape(tmp_path):
     """Through a lattice the sections at its ends are turned as a whole."""
     points, faces = wing()
-    box = ("lattice { origin (-0.1 -0.1 0); span (2.7 0.2 3); order (2 1 1);"
-           f" axis {{ {AXIS} variables {{ t {{ type twist; value 90; }} }} }} }}")
+    box = (
+        "lattice { origin (-0.1 -0.1 0); span (2.7 0.2 3); order (2 1 1);"
+        f" axis {{ {AXIS} variables {{ t {{ type twist; value 90; }} }} }} }}"
+    )
     moved = morphed(tmp_path, points, faces, box)
     tip, after = sections(points)[-1], sections(moved)[-1]
     A = np.array([1.75, 0, 3])
     np.testing.assert_allclose(
-        after, A + (tip - A) @ rotation((0, 0, 1), 90).T, rtol=0, atol=1e-12)
+        after, A + (tip - A) @ rotation((0, 0, 1), 90).T, rtol=0, atol=1e-12
+    )
     np.testing.assert_array_equal(sections(moved)[0], sections(points)[0])
 
 
@@ -81,78 +87,114 @@ def test_variables_add_up_along_the_axis(tmp_path):
     """chord, thickness, sweep, dihedral, span and two twists, by their
     formula; `along` linear and as natural spline (scipy)."""
     from scipy.interpolate import CubicSpline
+
     points, faces = wing()
-    moved = morphed(tmp_path, points, faces, axis("""
+    moved = morphed(
+        tmp_path,
+        points,
+        faces,
+        axis(
+            """
         a { type twist; value 10; }
         b { type twist; value -4; along ((0 0) (0.4 1) (1 0.5)); line spline; }
         c { type chord; value 0.3; along ((0 1) (1 -1)); }
         d { type thickness; value 0.5; along ((0 1) (1 1)); }
         e { type sweep; value 0.2; } f { type dihedral; value 0.1; }
-        g { type span; value 0.6; }"""))
+        g { type span; value 0.6; }"""
+        ),
+    )
     spline = CubicSpline([0, 0.4, 1], [0, 1, 0.5], bc_type="natural")
     for before, after in zip(sections(points), sections(moved)):
         z = before[0, 2]
-        u = z/3
-        R = rotation((0, 0, 1), 10*u - 4*spline(u))
-        chord = 1 + 0.3*(1 - 2*u)
-        S = np.diag([chord, chord*1.5, 1])
-        A = np.array([0.25 + 0.5*z, 0, z])
-        expected = A + u*np.array([0.2, 0.1, 0.6]) + (before - A) @ (R @ S).T
+        u = z / 3
+        R = rotation((0, 0, 1), 10 * u - 4 * spline(u))
+        chord = 1 + 0.3 * (1 - 2 * u)
+        S = np.diag([chord, chord * 1.5, 1])
+        A = np.array([0.25 + 0.5 * z, 0, z])
+        expected = A + u * np.array([0.2, 0.1, 0.6]) + (before - A) @ (R @ S).T
         np.testing.assert_allclose(after, expected, rtol=0, atol=1e-14)
 
 
-CUBE4 = np.array([[0.5, 0.5, 0.5], [1.25, 1.25, 1.25], [1.5, 1.5, 1.5],
-                  [2.0, 2.5, 0.5]])
+CUBE4 = np.array(
+    [[0.5, 0.5, 0.5], [1.25, 1.25, 1.25], [1.5, 1.5, 1.5], [2.0, 2.5, 0.5]]
+)
 
 
 def cube_box(name, low, size, extra):
-    return (f"{name} {{ origin ({low} {low} {low}); span ({size} {size} {size});"
-            f" order (1 1 1); continuity none; {extra} }}")
+    return (
+        f"{name} {{ origin ({low} {low} {low}); span ({size} {size} {size});"
+        f" order (1 1 1); continuity none; {extra} }}"
+    )
 
 
 def nested():
     """pyGeo's Blocks_02: a cube turned about x, a child moved, its child turned
     about y."""
     constant = "along ((0 1) (1 1));"
-    return (cube_box("big", 0, 3, f"""axis {{ through ((0 1.5 1.5) (3 1.5 1.5));
+    return (
+        cube_box(
+            "big",
+            0,
+            3,
+            f"""axis {{ through ((0 1.5 1.5) (3 1.5 1.5));
         chord (0 1 0); variables {{ r {{ type twist; value 10; {constant} }} }} }}
-        """) + cube_box("small", 0, 2, f"""parent big; axis {{
+        """,
+        )
+        + cube_box(
+            "small",
+            0,
+            2,
+            f"""parent big; axis {{
         through ((1 0 1) (1 2 1)); variables {{
             x {{ type sweep; value 0.5; {constant} }}
             y {{ type span; value -1; {constant} }}
             z {{ type dihedral; value -0.7; {constant} }} }} }}
-        """) + cube_box("tiny", 1, 1, f"""parent small; axis {{
+        """,
+        )
+        + cube_box(
+            "tiny",
+            1,
+            1,
+            f"""parent small; axis {{
         through ((1.5 1 1.5) (1.5 2 1.5)); variables {{
-            r {{ type twist; value -20; {constant} }} }} }}"""))
+            r {{ type twist; value -20; {constant} }} }} }}""",
+        )
+    )
 
 
 def trilinear(low, size, x):
     """Weights of the corners of a cube, None outside."""
-    xi = (np.array(x) - low)/size
+    xi = (np.array(x) - low) / size
     if (xi < 0).any() or (xi > 1).any():
         return None
-    return {(i, j, k): np.prod([xi[a] if c else 1 - xi[a]
-                                for a, c in enumerate((i, j, k))])
-            for i in (0, 1) for j in (0, 1) for k in (0, 1)}
+    return {
+        (i, j, k): np.prod(
+            [xi[a] if c else 1 - xi[a] for a, c in enumerate((i, j, k))]
+        )
+        for i in (0, 1)
+        for j in (0, 1)
+        for k in (0, 1)
+    }
 
 
 def by_hand(points):
     """The rules of pyGeo with trilinear lattices: control points and axis of a
     child move with the parent, then it turns what it has about its axis."""
+
     def big(x):
         w = trilinear(0, 3, x)
         R = rotation((1, 0, 0), 10)
         A = np.array([0, 1.5, 1.5])
         d = np.zeros(3)
         for corner, weight in w.items():
-            P = 3.0*np.array(corner)
-            arm = (P - A)*[0, 1, 1]
-            d += weight*(R @ arm - arm)
+            P = 3.0 * np.array(corner)
+            arm = (P - A) * [0, 1, 1]
+            d += weight * (R @ arm - arm)
         return d
 
     def small(x):
         w = trilinear(0, 2, x)
-        return np.array([0.5, -1, 0.7])*(w is not None)
+        return np.array([0.5, -1, 0.7]) * (w is not None)
 
     def both(x):
         return big(x) + small(x)
@@ -167,7 +209,7 @@ def by_hand(points):
             P = 1.0 + np.array(corner)
             A = np.array([1.5, P[1], 1.5])
             arm = P + both(P) - A - both(A)
-            d += weight*(R @ arm - arm)
+            d += weight * (R @ arm - arm)
         return d
 
     return np.array([x + both(x) + tiny(x) for x in points])
@@ -181,12 +223,13 @@ def test_children_go_with_their_parents(tmp_path):
 
 DERIVATIVES = {
     "axis": "through ((0.5 0.5 0) (0.6 0.5 0.5) (0.5 0.6 1)); line spline;"
-            " normal (0 0 1); variables {"
-            " a { type twist; value 30; line spline;"
-            "     along ((0 0.2) (0.5 1) (1 0)); }"
-            " b { type chord; value 0.2; } c { type thickness; value -0.1; }"
-            " d { type sweep; value 0.1; } e { type dihedral; value 0.2; }"
-            " f { type span; value 0.1; } }"}
+    " normal (0 0 1); variables {"
+    " a { type twist; value 30; line spline;"
+    "     along ((0 0.2) (0.5 1) (1 0)); }"
+    " b { type chord; value 0.2; } c { type thickness; value -0.1; }"
+    " d { type sweep; value 0.1; } e { type dihedral; value 0.2; }"
+    " f { type span; value 0.1; } }"
+}
 
 
 @pytest.mark.parametrize("combine", ["chain", "sum"])
@@ -197,7 +240,10 @@ def test_derivatives_are_those_of_central_differences(tmp_path, combine):
     case = FoamCase(tmp_path)
     write_control(case)
     moves = [((1, 1, 1), (0.2, 0.3, -0.2))]
-    case.write("constant/ffdDict", "dictionary", f"""boxes {{
+    case.write(
+        "constant/ffdDict",
+        "dictionary",
+        f"""boxes {{
         {ffd_box("plain", parameter("a", moves, "0.3"))}
         points {{ type axis; {DERIVATIVES["axis"]} }}
         {ffd_box("parent", parameter("a", moves, "0.3"), order=(2, 3, 2),
@@ -210,32 +256,41 @@ def test_derivatives_are_those_of_central_differences(tmp_path, combine):
             degree (3 2 3); form position; bulk {{ pair {{ i (2 2); j (1 2);
             k (2 2); directions (t (0.1 0 0.2)); mirror t;
             values {{ pair_2_1_2_t 0.2; }} }} }} }}
-        }} combine {combine};""")
+        }} combine {combine};""",
+    )
     output = case.run("ffdDerivatives")
-    found = re.findall(r"parameter (\S+) dx (\S+) error (\S+) measures (\S+)"
-                       r" error (\S+)", output)
+    found = re.findall(
+        r"parameter (\S+) dx (\S+) error (\S+) measures (\S+)" r" error (\S+)",
+        output,
+    )
     assert len(found) == 1 + 6 + 7 + 7 + 3
     for name, dx, error, measures, measures_error in found:
         assert float(dx) > 1e-3, name
-        assert float(error) < 1e-8*max(1, float(dx)), name
-        assert float(measures_error) < 1e-8*max(1, float(measures)), name
+        assert float(error) < 1e-8 * max(1, float(dx)), name
+        assert float(measures_error) < 1e-8 * max(1, float(measures)), name
 
 
 def knots(n, degree):
     inner = np.linspace(0, 1, n - degree + 1)[1:-1]
-    return np.concatenate([[0]*(degree + 1), inner, [1]*(degree + 1)])
+    return np.concatenate([[0] * (degree + 1), inner, [1] * (degree + 1)])
 
 
 def spline_volume(control, degrees, xi):
     """Sum over control points (l m n 3) of scipy's clamped B-splines."""
     from scipy.interpolate import BSpline
+
     for d in range(3):
         n = control.shape[0 if d == 0 else 1]
-        basis = [BSpline(knots(n, degrees[d]), np.eye(n)[i], degrees[d])
-                 for i in range(n)]
+        basis = [
+            BSpline(knots(n, degrees[d]), np.eye(n)[i], degrees[d])
+            for i in range(n)
+        ]
         row = np.array([b(xi[:, d]) for b in basis]).T
-        control = (np.einsum("pl,lmnc->pmnc", row, control) if d == 0 else
-                   np.einsum("pm,pm...->p...", row, control))
+        control = (
+            np.einsum("pl,lmnc->pmnc", row, control)
+            if d == 0
+            else np.einsum("pm,pm...->p...", row, control)
+        )
     return control
 
 
@@ -244,8 +299,10 @@ def test_the_position_form_is_the_map_of_b_splines(tmp_path):
     control points span, and move to where the moved ones say, 1e-10."""
     rng = np.random.default_rng(3)
     shape, degrees = (6, 5, 7), (3, 2, 3)
-    grid = np.stack(np.meshgrid(*[np.linspace(0, 1, n) for n in shape],
-                                indexing="ij"), axis=-1)*[2, 1, 1.5]
+    grid = np.stack(
+        np.meshgrid(*[np.linspace(0, 1, n) for n in shape], indexing="ij"),
+        axis=-1,
+    ) * [2, 1, 1.5]
     xi = rng.random((200, 3))
     points = spline_volume(grid, degrees, xi)
     moves = [((2, 1, 3), (0.1, 0.2, -0.1)), ((3, 3, 2), (0, -0.15, 0.1))]
@@ -254,25 +311,33 @@ def test_the_position_form_is_the_map_of_b_splines(tmp_path):
         moved_grid[at] += vector
     expected = spline_volume(moved_grid, degrees, xi)
     assert np.abs(expected - points).max() > 0.02
-    box = ffd_box("b", parameter("a", moves, "1"), order=(5, 4, 6),
-                  origin=(0, 0, 0), span=(2, 1, 1.5),
-                  extra="basis bSpline; degree (3 2 3); form position;"
-                  " units metres; continuity none;")
+    box = ffd_box(
+        "b",
+        parameter("a", moves, "1"),
+        order=(5, 4, 6),
+        origin=(0, 0, 0),
+        span=(2, 1, 1.5),
+        extra="basis bSpline; degree (3 2 3); form position;"
+        " units metres; continuity none;",
+    )
     moved = morphed(tmp_path, points, [(0, 1, 2)], box)
     np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-10)
     # The displacement form is another one
-    other = morphed(tmp_path, points, [(0, 1, 2)],
-                    box.replace("form position;", ""))
+    other = morphed(
+        tmp_path, points, [(0, 1, 2)], box.replace("form position;", "")
+    )
     assert np.abs(other - expected).max() > 1e-3
 
 
 def curved_lattice(shape=(4, 3, 5)):
     """Control points about an arc."""
-    a, b, c = np.meshgrid(*[np.linspace(0, 1, n) for n in shape],
-                          indexing="ij")
+    a, b, c = np.meshgrid(
+        *[np.linspace(0, 1, n) for n in shape], indexing="ij"
+    )
     radius = 2 + a
-    return np.stack([radius*np.cos(c), b + 0.1*a*c, radius*np.sin(c)],
-                    axis=-1)
+    return np.stack(
+        [radius * np.cos(c), b + 0.1 * a * c, radius * np.sin(c)], axis=-1
+    )
 
 
 def plot3d(blocks):
@@ -281,15 +346,22 @@ def plot3d(blocks):
         text += " ".join(map(str, block.shape[:3])) + "\n"
     for block in blocks:
         for c in range(3):
-            text += "\n".join(repr(float(x)) for x in
-                              block[..., c].flatten(order="F")) + "\n"
+            text += (
+                "\n".join(
+                    repr(float(x)) for x in block[..., c].flatten(order="F")
+                )
+                + "\n"
+            )
     return text
 
 
 def table(block):
-    rows = [f"{i},{j},{k}," + ",".join(repr(float(x)) for x in block[i, j, k])
-            for k in range(block.shape[2]) for j in range(block.shape[1])
-            for i in range(block.shape[0])]
+    rows = [
+        f"{i},{j},{k}," + ",".join(repr(float(x)) for x in block[i, j, k])
+        for k in range(block.shape[2])
+        for j in range(block.shape[1])
+        for i in range(block.shape[0])
+    ]
     return "i,j,k,x,y,z\n" + "\n".join(reversed(rows)) + "\n"
 
 
@@ -314,13 +386,19 @@ def test_a_lattice_from_a_file(tmp_path, kind):
         text = plot3d([control + 10, control])
     else:
         text = plot3d([control])
-    (tmp_path/name).write_text(text)
+    (tmp_path / name).write_text(text)
     block = "block 1;" if kind == "blocks" else ""
-    moved = morphed(tmp_path, points, [(0, 1, 2)], f"""l {{ type lattice;
+    moved = morphed(
+        tmp_path,
+        points,
+        [(0, 1, 2)],
+        f"""l {{ type lattice;
         file "{name}"; {block} basis bSpline; degree (2 1 3); continuity none;
-        parameters {{ {parameter("a", MOVE, "1")} }} }}""")
+        parameters {{ {parameter("a", MOVE, "1")} }} }}""",
+    )
     np.testing.assert_allclose(
-        moved, spline_volume(moved_control, degrees, xi), rtol=0, atol=1e-10)
+        moved, spline_volume(moved_control, degrees, xi), rtol=0, atol=1e-10
+    )
 
 
 def test_bulk_parameters_of_a_lattice_in_one_line(tmp_path):
@@ -329,15 +407,22 @@ def test_bulk_parameters_of_a_lattice_in_one_line(tmp_path):
     rng = np.random.default_rng(7)
     points = rng.random((30, 3))
     moved, output = morphed(
-        tmp_path, points, [(0, 1, 2)],
+        tmp_path,
+        points,
+        [(0, 1, 2)],
         "b { origin (0 0 0); span (1 1 1); order (6 6 6); continuity none;"
         " bulk { all { values { all_2_3_4_t 0.2; } } } }",
-        options=["-derivatives"], output=True)
+        options=["-derivatives"],
+        output=True,
+    )
     assert len(re.findall(r"^b\.all_\d_\d_\d_[stp] ", output, re.M)) == 1029
-    d = 0.2*np.prod([bernstein(6, i, points[:, a])
-                     for a, i in enumerate((2, 3, 4))], axis=0)
-    np.testing.assert_allclose(moved, points + d[:, None]*[0, 1, 0], rtol=0,
-                               atol=1e-14)
+    d = 0.2 * np.prod(
+        [bernstein(6, i, points[:, a]) for a, i in enumerate((2, 3, 4))],
+        axis=0,
+    )
+    np.testing.assert_allclose(
+        moved, points + d[:, None] * [0, 1, 0], rtol=0, atol=1e-14
+    )
 
 
 def test_mirrored_pairs_camber_and_thickness(tmp_path):
@@ -345,76 +430,119 @@ def test_mirrored_pairs_camber_and_thickness(tmp_path):
     rng = np.random.default_rng(8)
     points = rng.random((30, 3))
     moved = morphed(
-        tmp_path, points, [(0, 1, 2)],
+        tmp_path,
+        points,
+        [(0, 1, 2)],
         "b { origin (0 0 0); span (1 1 1); order (3 4 2); continuity none;"
         " bulk { pair { mirror t; directions (s t);"
         "               values { pair_1_1_1_t 0.2; pair_2_0_1_s 0.1; } }"
         "        camber { type camber; across p; values { camber_1_2 0.3; } }"
         "        thick { type thickness; across p; values { thick_2_1 0.4; } }"
-        " } }")
+        " } }",
+    )
 
     def b(i, j, k):
-        return np.prod([bernstein(n, at, points[:, a]) for a, (n, at) in
-                        enumerate(zip((3, 4, 2), (i, j, k)))], axis=0)
+        return np.prod(
+            [
+                bernstein(n, at, points[:, a])
+                for a, (n, at) in enumerate(zip((3, 4, 2), (i, j, k)))
+            ],
+            axis=0,
+        )
+
     d = np.zeros_like(points)
-    d[:, 1] += 0.2*(b(1, 1, 1) - b(1, 3, 1))
-    d[:, 0] += 0.1*(b(2, 0, 1) + b(2, 4, 1))
-    d[:, 2] += 0.3*(b(1, 2, 0) + b(1, 2, 1) + b(1, 2, 2))
-    d[:, 2] += 0.4*(0.5*b(2, 1, 2) - 0.5*b(2, 1, 0))
+    d[:, 1] += 0.2 * (b(1, 1, 1) - b(1, 3, 1))
+    d[:, 0] += 0.1 * (b(2, 0, 1) + b(2, 4, 1))
+    d[:, 2] += 0.3 * (b(1, 2, 0) + b(1, 2, 1) + b(1, 2, 2))
+    d[:, 2] += 0.4 * (0.5 * b(2, 1, 2) - 0.5 * b(2, 1, 0))
     np.testing.assert_allclose(moved, points + d, rtol=0, atol=1e-14)
 
 
 def lattice_box(name, extra=""):
-    return (f'l {{ type lattice; file "{name}"; {extra} parameters {{ '
-            + parameter("a", MOVE, "1") + "} }")
+    return (
+        f'l {{ type lattice; file "{name}"; {extra} parameters {{ '
+        + parameter("a", MOVE, "1")
+        + "} }"
+    )
 
 
 def bulk_box(entries):
-    return ("b { origin (0 0 0); span (1 1 1); order (2 2 2);"
-            f" bulk {{ g {{ {entries} }} }} }}")
+    return (
+        "b { origin (0 0 0); span (1 1 1); order (2 2 2);"
+        f" bulk {{ g {{ {entries} }} }} }}"
+    )
 
 
 WRONG = {
     "axis that meets no section": (
-        axis("t { type twist; value 1; }").replace("(0.25 0 0)", "(0 0 50)")
-        .replace("(1.75 0 3)", "(0 0 60)"), ["meets no section", "through"]),
+        axis("t { type twist; value 1; }")
+        .replace("(0.25 0 0)", "(0 0 50)")
+        .replace("(1.75 0 3)", "(0 0 60)"),
+        ["meets no section", "through"],
+    ),
     "axis of one point": (
         "w { type axis; through ((0 0 0)); variables { t { type twist;"
-        " value 1; } } }", ["'through'", "two at least"]),
+        " value 1; } } }",
+        ["'through'", "two at least"],
+    ),
     "axis that turns back": (
         "w { type axis; through ((0 0 0) (0 0 2) (0 0 1)); variables { t {"
-        " type twist; value 1; } } }", ["point 2", "not further"]),
+        " type twist; value 1; } } }",
+        ["point 2", "not further"],
+    ),
     "chord along the axis": (
         axis("t { type twist; value 1; }", "chord (0 0 1);"),
-        ["chord", "normal"]),
-    "unknown variable": (axis("t { type turn; value 1; }"),
-                         ["turn", "twist", "dihedral"]),
+        ["chord", "normal"],
+    ),
+    "unknown variable": (
+        axis("t { type turn; value 1; }"),
+        ["turn", "twist", "dihedral"],
+    ),
     "no variables": (axis(""), ["'variables' is empty"]),
     "places that descend": (
         axis("t { type twist; value 1; along ((1 0) (0 1)); }"),
-        ["'along'", "ascend"]),
+        ["'along'", "ascend"],
+    ),
     "parent below": (
-        cube_box("a", 0, 1, "parent b; parameters { "
-                 + parameter("m", [((1, 1, 1), (0, 0, 1))]) + " }"),
-        ["'parent'", "'b'", "before"]),
+        cube_box(
+            "a",
+            0,
+            1,
+            "parent b; parameters { "
+            + parameter("m", [((1, 1, 1), (0, 0, 1))])
+            + " }",
+        ),
+        ["'parent'", "'b'", "before"],
+    ),
     "no file": (lattice_box("none.xyz"), ["none.xyz", "is not there"]),
     "holes": (lattice_box("holes.csv"), ["holes.csv", "holes", "(3 2 4)"]),
     "short": (lattice_box("short.xyz"), ["short.xyz", "ends in block 0"]),
     "words": (lattice_box("words.xyz"), ["words.xyz", "numbers"]),
-    "which block": (lattice_box("two.xyz"), ["two.xyz", "2 blocks",
-                                             "from 0 to 1"]),
+    "which block": (
+        lattice_box("two.xyz"),
+        ["two.xyz", "2 blocks", "from 0 to 1"],
+    ),
     "block beyond": (lattice_box("two.xyz", "block 2;"), ["no block 2"]),
     "inside out": (lattice_box("out.xyz"), ["inside out", "right-handed"]),
-    "another order": (lattice_box("one.xyz", "order (1 1 1);"),
-                      ["'order'", "(3 2 4)"]),
+    "another order": (
+        lattice_box("one.xyz", "order (1 1 1);"),
+        ["'order'", "(3 2 4)"],
+    ),
     "weights in position form": (
-        ffd_box("b", parameter("a", MOVE), order=(2, 2, 2),
-                extra="form position; weights ( ((1 1 1) 2) );"),
-        ["'weights'", "displacement"]),
+        ffd_box(
+            "b",
+            parameter("a", MOVE),
+            order=(2, 2, 2),
+            extra="form position; weights ( ((1 1 1) 2) );",
+        ),
+        ["'weights'", "displacement"],
+    ),
     "bulk layers": (bulk_box("i (0 3);"), ["'i'", "from 0 to 2"]),
     "bulk direction": (bulk_box("directions (x);"), ["'directions'", "x"]),
-    "bulk name": (bulk_box("values { g_9_9_9_s 1; }"),
-                  ["g_9_9_9_s", "81", "g_0_0_0_s", "g_2_2_2_p"]),
+    "bulk name": (
+        bulk_box("values { g_9_9_9_s 1; }"),
+        ["g_9_9_9_s", "81", "g_0_0_0_s", "g_2_2_2_p"],
+    ),
     "bulk mirror": (bulk_box("mirror y;"), ["'mirror'", "y"]),
     "thickness without across": (bulk_box("type thickness;"), ["across"]),
 }
@@ -424,13 +552,13 @@ WRONG = {
 def test_a_wrong_entry_is_an_error_that_helps(tmp_path, name):
     boxes, words = WRONG[name]
     control = curved_lattice()
-    (tmp_path/"one.xyz").write_text(plot3d([control]))
-    (tmp_path/"two.xyz").write_text(plot3d([control, control]))
-    (tmp_path/"short.xyz").write_text(plot3d([control])[:-100])
-    (tmp_path/"words.xyz").write_text("lattice of a wing\n")
-    (tmp_path/"out.xyz").write_text(plot3d([control[::-1]]))
+    (tmp_path / "one.xyz").write_text(plot3d([control]))
+    (tmp_path / "two.xyz").write_text(plot3d([control, control]))
+    (tmp_path / "short.xyz").write_text(plot3d([control])[:-100])
+    (tmp_path / "words.xyz").write_text("lattice of a wing\n")
+    (tmp_path / "out.xyz").write_text(plot3d([control[::-1]]))
     lines = table(control).splitlines()
-    (tmp_path/"holes.csv").write_text("\n".join(lines[:1] + lines[2:]))
+    (tmp_path / "holes.csv").write_text("\n".join(lines[:1] + lines[2:]))
     points, faces = wing()
     output = morphed(tmp_path, points, faces, boxes, status=1)
     message = " ".join(output.split())
@@ -442,18 +570,34 @@ def test_a_wrong_entry_is_an_error_that_helps(tmp_path, name):
 def test_parameters_of_frozen_points_rest(tmp_path):
     """With C0 a box inside a surface: those of its rim have no derivative, and
     a value is an error."""
-    grid = np.array([(x, y, 0.5) for y in np.linspace(-1, 2, 7)
-                     for x in np.linspace(-1, 2, 7)])
-    faces = [(7*j + i, 7*j + i + 1, 7*j + i + 7)
-             for j in range(6) for i in range(6)]
-    box = ("b { origin (0 0 0); span (1 1 1); order (2 2 2);"
-           " bulk { g { directions (p); %s } } }")
-    _, output = morphed(tmp_path, grid, faces, box % "",
-                        options=["-derivatives"], output=True)
-    rows = {m[0]: float(m[1]) for m in re.findall(
-        r"^b\.(g_\d_\d_\d_p) +\S+ +\S+ +\S+ +\S+ +(\S+)", output, re.M)}
+    grid = np.array(
+        [
+            (x, y, 0.5)
+            for y in np.linspace(-1, 2, 7)
+            for x in np.linspace(-1, 2, 7)
+        ]
+    )
+    faces = [
+        (7 * j + i, 7 * j + i + 1, 7 * j + i + 7)
+        for j in range(6)
+        for i in range(6)
+    ]
+    box = (
+        "b { origin (0 0 0); span (1 1 1); order (2 2 2);"
+        " bulk { g { directions (p); %s } } }"
+    )
+    _, output = morphed(
+        tmp_path, grid, faces, box % "", options=["-derivatives"], output=True
+    )
+    rows = {
+        m[0]: float(m[1])
+        for m in re.findall(
+            r"^b\.(g_\d_\d_\d_p) +\S+ +\S+ +\S+ +\S+ +(\S+)", output, re.M
+        )
+    }
     moving = {name for name, dz in rows.items() if dz != 0}
     assert moving == {f"g_1_1_{k}_p" for k in range(3)}
-    text = morphed(tmp_path, grid, faces,
-                   box % "values { g_0_1_1_p 0.1; }", status=1)
+    text = morphed(
+        tmp_path, grid, faces, box % "values { g_0_1_1_p 0.1; }", status=1
+    )
     assert "g_0_1_1_p" in text and "frozen layer" in text

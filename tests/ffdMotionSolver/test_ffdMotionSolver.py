@@ -15,41 +15,64 @@ import shutil
 import numpy as np
 import pytest
 
-from boxCase import (fixed, from_block_mesh, point_field, vectors, words)
+from boxCase import fixed, from_block_mesh, point_field, vectors, words
 from foamCase import build_program
-from ffdCase import (CUBE, displaced, ffd_box, ffd_case, move, parameter,
-                     points_at, reference, rotation, write_boxes)
+from ffdCase import (
+    CUBE,
+    displaced,
+    ffd_box,
+    ffd_case,
+    move,
+    parameter,
+    points_at,
+    reference,
+    rotation,
+    write_boxes,
+)
 
 ROUND_OFF = 1e-14
 
 CELLS = (5, 4, 3)
 
-MOVES = [((1, 1, 1), (0.5, 0.3, -0.2)), ((1, 2, 1), (0, 0.2, 0)),
-         ((2, 2, 2), (0.1, 0, 0))]
+MOVES = [
+    ((1, 1, 1), (0.5, 0.3, -0.2)),
+    ((1, 2, 1), (0, 0.2, 0)),
+    ((2, 2, 2), (0.1, 0, 0)),
+]
 
 TABLE = "table ((0 0) (1 0.3) (2 0.3) (3 -0.2) (4 0))"
 
 
 def test_points_move_by_the_formula(tmp_path):
-    case = ffd_case(tmp_path, ffd_box("body", parameter("a", MOVES, "0.7")),
-                    cells=CELLS)
+    case = ffd_case(
+        tmp_path, ffd_box("body", parameter("a", MOVES, "0.7")), cells=CELLS
+    )
     before = reference(case)
-    d = displaced(before, MOVES, (2, 2, 2), [-0.1]*3, [1.2]*3)
+    d = displaced(before, MOVES, (2, 2, 2), [-0.1] * 3, [1.2] * 3)
     assert np.abs(d).max() > 0.05
-    np.testing.assert_allclose(move(case), before + 0.7*d, rtol=0,
-                               atol=ROUND_OFF)
+    np.testing.assert_allclose(
+        move(case), before + 0.7 * d, rtol=0, atol=ROUND_OFF
+    )
 
 
 def test_only_points_in_a_local_box_move_and_those_on_its_faces_belong_to_it(
-        tmp_path):
+    tmp_path,
+):
     # The box reaches from 0.2 to 0.6 in x: points at 0.2 and 0.6 are on its
     # faces; there is no mesh beyond the others
     moves = [((i, 1, 1), (0, 0.2, 0)) for i in range(3)]
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", moves, "1"),
-                          origin=(0.2, 0, 0), span=(0.4, 1, 1),
-                          extra="continuity none;"),
-        "onInvalidMesh ignore;", cells=(5, 4, 4))
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", moves, "1"),
+            origin=(0.2, 0, 0),
+            span=(0.4, 1, 1),
+            extra="continuity none;",
+        ),
+        "onInvalidMesh ignore;",
+        cells=(5, 4, 4),
+    )
     before = reference(case)
     d = displaced(before, moves, (2, 2, 2), (0.2, 0, 0), (0.4, 1, 1))
     on = np.isclose(before[:, 0], 0.2) | np.isclose(before[:, 0], 0.6)
@@ -57,15 +80,24 @@ def test_only_points_in_a_local_box_move_and_those_on_its_faces_belong_to_it(
     np.testing.assert_allclose(move(case), before + d, rtol=0, atol=ROUND_OFF)
 
 
-@pytest.mark.parametrize("extra", ["", "basis bSpline; degree (2 3 1);",
-                                   "weights ( ((1 1 1) 3) );"])
-def test_parameters_of_zero_leave_the_mesh_as_it_is_to_the_bit(tmp_path, extra):
+@pytest.mark.parametrize(
+    "extra", ["", "basis bSpline; degree (2 3 1);", "weights ( ((1 1 1) 3) );"]
+)
+def test_parameters_of_zero_leave_the_mesh_as_it_is_to_the_bit(
+    tmp_path, extra
+):
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", MOVES, "0"), order=(4, 4, 4),
-                          extra=extra + "continuity none;"
-                          "rotation { type axisAngle; axis (1 2 3);"
-                          " angle 20; }"),
-        cells=CELLS)
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", MOVES, "0"),
+            order=(4, 4, 4),
+            extra=extra + "continuity none;"
+            "rotation { type axisAngle; axis (1 2 3);"
+            " angle 20; }",
+        ),
+        cells=CELLS,
+    )
     before = reference(case)
     np.testing.assert_array_equal(move(case, rests=True), before)
 
@@ -74,44 +106,62 @@ def test_a_rotated_box_is_the_mesh_rotated_and_rotated_back(tmp_path):
     axis, angle, origin = (1, 2, 3), 25, np.array([0.1, 0.2, 0])
     R = rotation(axis, angle)
     case = ffd_case(
-        tmp_path, ffd_box(
-            "body", parameter("a", MOVES, "0.5"), origin=origin,
-            span=(0.9, 0.8, 0.7), extra="continuity none; rotation { type"
-            f" axisAngle; axis ({words(axis)}); angle {angle}; }}"),
-        "onInvalidMesh ignore;", cells=(8, 8, 8))
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", MOVES, "0.5"),
+            origin=origin,
+            span=(0.9, 0.8, 0.7),
+            extra="continuity none; rotation { type"
+            f" axisAngle; axis ({words(axis)}); angle {angle}; }}",
+        ),
+        "onInvalidMesh ignore;",
+        cells=(8, 8, 8),
+    )
     before = reference(case)
     turned = origin + (before - origin) @ R
     d = displaced(turned, MOVES, (2, 2, 2), origin, (0.9, 0.8, 0.7))
     assert (np.abs(d).max(axis=1) > 0.01).sum() > 50
-    np.testing.assert_allclose(move(case), before + 0.5*d @ R.T,
-                               rtol=0, atol=ROUND_OFF)
+    np.testing.assert_allclose(
+        move(case), before + 0.5 * d @ R.T, rtol=0, atol=ROUND_OFF
+    )
 
 
 def test_units_of_metres_are_along_the_axes_of_the_box(tmp_path):
     R = rotation((0, 0, 1), 10)
     case = ffd_case(
-        tmp_path, ffd_box(
-            "body", parameter("a", [((0, 0, 0), (0.1, 0.02, 0))], "1"),
-            order=(0, 0, 0), origin=(-1, -1, -1), span=(3, 3, 3),
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", [((0, 0, 0), (0.1, 0.02, 0))], "1"),
+            order=(0, 0, 0),
+            origin=(-1, -1, -1),
+            span=(3, 3, 3),
             extra="units metres; rotation { type axisAngle; axis (0 0 1);"
-            " angle 10; }"))
+            " angle 10; }",
+        ),
+    )
     before = reference(case)
     np.testing.assert_allclose(
-        move(case) - before, np.tile(R @ (0.1, 0.02, 0), (len(before), 1)),
-        rtol=0, atol=ROUND_OFF)
+        move(case) - before,
+        np.tile(R @ (0.1, 0.02, 0), (len(before), 1)),
+        rtol=0,
+        atol=ROUND_OFF,
+    )
 
 
 def test_a_chain_acts_on_what_the_former_box_left_and_a_sum_does_not(tmp_path):
     first = [((1, 1, 1), (0.8, 0, 0))]
     second = [((1, 1, 1), (0, 0.8, 0))]
-    boxes = (ffd_box("one", parameter("a", first, "0.5"))
-             + ffd_box("two", parameter("b", second, "0.5")))
-    how = ((2, 2, 2), [-0.1]*3, [1.2]*3)
+    boxes = ffd_box("one", parameter("a", first, "0.5")) + ffd_box(
+        "two", parameter("b", second, "0.5")
+    )
+    how = ((2, 2, 2), [-0.1] * 3, [1.2] * 3)
     case = ffd_case(tmp_path, boxes, cells=CELLS)
     before = reference(case)
-    middle = before + 0.5*displaced(before, first, *how)
-    chain = middle + 0.5*displaced(middle, second, *how)
-    add = middle + 0.5*displaced(before, second, *how)
+    middle = before + 0.5 * displaced(before, first, *how)
+    chain = middle + 0.5 * displaced(middle, second, *how)
+    add = middle + 0.5 * displaced(before, second, *how)
     assert np.abs(chain - add).max() > 0.003
     np.testing.assert_allclose(move(case), chain, rtol=0, atol=ROUND_OFF)
     write_boxes(case, boxes, "combine sum;")
@@ -122,23 +172,32 @@ def test_a_later_box_of_a_chain_follows_when_a_former_one_changes(tmp_path):
     first = [((1, 1, 1), (0.8, 0, 0))]
     second = [((1, 1, 1), (0, 0.8, 0))]
     case = ffd_case(
-        tmp_path, ffd_box("one", parameter("a", first, TABLE))
-        + ffd_box("two", parameter("b", second, "0.5")), cells=CELLS,
-        control={"end": 4})
+        tmp_path,
+        ffd_box("one", parameter("a", first, TABLE))
+        + ffd_box("two", parameter("b", second, "0.5")),
+        cells=CELLS,
+        control={"end": 4},
+    )
     before = reference(case)
     case.run("moveDynamicMesh")
-    how = ((2, 2, 2), [-0.1]*3, [1.2]*3)
+    how = ((2, 2, 2), [-0.1] * 3, [1.2] * 3)
     for time, value in ((1, 0.3), (2, 0.3), (3, -0.2), (4, 0)):
-        middle = before + value*displaced(before, first, *how)
+        middle = before + value * displaced(before, first, *how)
         np.testing.assert_allclose(
             points_at(case, time),
-            middle + 0.5*displaced(middle, second, *how), rtol=0,
-            atol=ROUND_OFF)
+            middle + 0.5 * displaced(middle, second, *how),
+            rtol=0,
+            atol=ROUND_OFF,
+        )
 
 
 def test_a_motion_that_returns_brings_the_mesh_back_to_the_bit(tmp_path):
-    case = ffd_case(tmp_path, ffd_box("body", parameter("a", MOVES, TABLE)),
-                    cells=CELLS, control={"end": 4})
+    case = ffd_case(
+        tmp_path,
+        ffd_box("body", parameter("a", MOVES, TABLE)),
+        cells=CELLS,
+        control={"end": 4},
+    )
     before = reference(case)
     case.run("moveDynamicMesh")
     assert np.abs(points_at(case, 3) - before).max() > 0.01
@@ -157,25 +216,42 @@ CYLINDER = """tube
 
 def test_a_cylindrical_box_moves_radius_angle_and_height(tmp_path):
     # All points alike: by 0.1 in r (fractions of 0.5), 18 degrees, 0.2
-    moves = [((i, j, k), (0.2, 0.1, 0.2)) for i in range(3) for j in range(3)
-             for k in range(2)]
+    moves = [
+        ((i, j, k), (0.2, 0.1, 0.2))
+        for i in range(3)
+        for j in range(3)
+        for k in range(2)
+    ]
     case = ffd_case(
-        tmp_path, CYLINDER.format(
-            start="0.2 90 0", span="0.5 180 1", around=2,
-            extra="continuity none;", parameters=parameter("a", moves, "1")),
-        "onInvalidMesh ignore;", cells=(8, 8, 2))
+        tmp_path,
+        CYLINDER.format(
+            start="0.2 90 0",
+            span="0.5 180 1",
+            around=2,
+            extra="continuity none;",
+            parameters=parameter("a", moves, "1"),
+        ),
+        "onInvalidMesh ignore;",
+        cells=(8, 8, 2),
+    )
     before = reference(case)
     after = move(case)
-    z, after_z = (p[:, 0] - 0.5 + 1j*(p[:, 1] - 0.5) for p in (before, after))
+    z, after_z = (
+        p[:, 0] - 0.5 + 1j * (p[:, 1] - 0.5) for p in (before, after)
+    )
     r = np.abs(z)
     # Half a ring across the cut of atan2, with the points at x = 0.5
     inside = (r > 0.2 - 1e-9) & (r < 0.7 + 1e-9) & (z.real < 1e-9)
-    assert 20 < inside.sum() < len(before)/2
-    turned = (z + 0.1*z/np.where(r > 0, r, 1))*np.exp(1j*np.radians(18))
-    np.testing.assert_allclose(after_z, np.where(inside, turned, z), rtol=0,
-                               atol=ROUND_OFF)
-    np.testing.assert_allclose(after[:, 2], before[:, 2] + 0.2*inside, rtol=0,
-                               atol=ROUND_OFF)
+    assert 20 < inside.sum() < len(before) / 2
+    turned = (z + 0.1 * z / np.where(r > 0, r, 1)) * np.exp(
+        1j * np.radians(18)
+    )
+    np.testing.assert_allclose(
+        after_z, np.where(inside, turned, z), rtol=0, atol=ROUND_OFF
+    )
+    np.testing.assert_allclose(
+        after[:, 2], before[:, 2] + 0.2 * inside, rtol=0, atol=ROUND_OFF
+    )
 
 
 @pytest.mark.parametrize("extra", ["", "basis bSpline; degree (2 3 1);"])
@@ -185,64 +261,87 @@ def test_a_ring_closes(tmp_path, extra):
     for turn in (0, 2):
         moves = [((2, turn, n), (0.2, 0, 0)) for n in range(2)]
         case = ffd_case(
-            tmp_path/str(turn), CYLINDER.format(
-                start=f"0 {-60*turn} 0", span="1 360 1", around=6,
-                extra=extra, parameters=parameter("a", moves, "0.5")),
-            cells=(8, 8, 1))
+            tmp_path / str(turn),
+            CYLINDER.format(
+                start=f"0 {-60*turn} 0",
+                span="1 360 1",
+                around=6,
+                extra=extra,
+                parameters=parameter("a", moves, "0.5"),
+            ),
+            cells=(8, 8, 1),
+        )
         before = reference(case)
         results.append(move(case) - before)
     assert np.abs(results[0]).max() > 0.01
     if extra:
-        np.testing.assert_allclose(results[0], results[1], rtol=0,
-                                   atol=ROUND_OFF)
+        np.testing.assert_allclose(
+            results[0], results[1], rtol=0, atol=ROUND_OFF
+        )
     # Without a seam: the point at angle zero moves along the radius, and
     # mirror images about it alike
     for d in results[:1]:
         on = np.isclose(before[:, 1], 0.5) & (before[:, 0] > 0.6)
         np.testing.assert_allclose(d[on, 1], 0, rtol=0, atol=ROUND_OFF)
         order = np.lexsort(before.round(9).T)
-        mirror = np.lexsort((before*(1, -1, 1) + (0, 1, 0)).round(9).T)
-        np.testing.assert_allclose(d[order], d[mirror]*(1, -1, 1), rtol=0,
-                                   atol=ROUND_OFF)
+        mirror = np.lexsort((before * (1, -1, 1) + (0, 1, 0)).round(9).T)
+        np.testing.assert_allclose(
+            d[order], d[mirror] * (1, -1, 1), rtol=0, atol=ROUND_OFF
+        )
 
 
 def test_a_box_with_eight_corners_takes_points_along_its_lines(tmp_path):
     # The mesh is the box: uniform cells are at (i/4, j/4, k/4) of it
-    corners = [(0, 0, 0), (1.2, 0, 0.1), (1, 1.1, 0), (0, 0.9, 0),
-               (0.1, 0, 1), (1, 0.1, 1.2), (1.1, 1, 1), (-0.1, 1.1, 1.1)]
+    corners = [
+        (0, 0, 0),
+        (1.2, 0, 0.1),
+        (1, 1.1, 0),
+        (0, 0.9, 0),
+        (0.1, 0, 1),
+        (1, 0.1, 1.2),
+        (1.1, 1, 1),
+        (-0.1, 1.1, 1.1),
+    ]
     moves = [((1, 1, 1), (0.3, -0.2, 0.1)), ((2, 1, 1), (0, 0.3, 0))]
     case = ffd_case(
-        tmp_path, f"hex {{ type corners; corners {vectors(corners)};"
+        tmp_path,
+        f"hex {{ type corners; corners {vectors(corners)};"
         " order (2 2 2); parameters { " + parameter("a", moves, "1") + "} }",
-        corners=corners)
+        corners=corners,
+    )
     before = reference(case)
 
     c = np.array(corners)[[0, 1, 3, 2, 4, 5, 7, 6]].reshape(2, 2, 2, 3)
 
     def at(s, t, p):
-        w = np.multiply.outer(np.multiply.outer([1 - p, p], [1 - t, t]),
-                              [1 - s, s])
+        w = np.multiply.outer(
+            np.multiply.outer([1 - p, p], [1 - t, t]), [1 - s, s]
+        )
         return np.tensordot(w, c, 3)
 
     d = np.zeros_like(before)
-    places = np.array([(s, t, p) for p in range(5) for t in range(5)
-                       for s in range(5)])/4
+    places = (
+        np.array(
+            [(s, t, p) for p in range(5) for t in range(5) for s in range(5)]
+        )
+        / 4
+    )
     positions = np.array([at(*place) for place in places])
     np.testing.assert_allclose(positions, before, rtol=0, atol=1e-12)
     for index, vector in moves:
-        rest = np.array(index)/2
+        rest = np.array(index) / 2
         physical = np.zeros(3)
         for a in range(3):
             low, high = rest.copy(), rest.copy()
             low[a], high[a] = 0, 1
-            physical += vector[a]*(at(*high) - at(*low))
+            physical += vector[a] * (at(*high) - at(*low))
         b = np.prod([bern(index[a], places[:, a]) for a in range(3)], axis=0)
         d += np.outer(b, physical)
     np.testing.assert_allclose(move(case), before + d, rtol=0, atol=1e-12)
 
 
 def bern(i, s):
-    return (1, 2, 1)[i]*s**i*(1 - s)**(2 - i)
+    return (1, 2, 1)[i] * s**i * (1 - s) ** (2 - i)
 
 
 # --- constraints
@@ -251,20 +350,29 @@ def bern(i, s):
 def test_an_empty_mesh_keeps_its_planes(tmp_path):
     patches = {**CUBE, "zMin": "empty", "zMax": "empty"}
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", [((1, 1, 0), (0.4, 0.2, 0.5))],
-                                            "0.5"),
-                          order=(2, 2, 0), origin=(0, 0, -1), span=(1, 1, 3)),
-        patches=patches, cells=(6, 6, 1))
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", [((1, 1, 0), (0.4, 0.2, 0.5))], "0.5"),
+            order=(2, 2, 0),
+            origin=(0, 0, -1),
+            span=(1, 1, 3),
+        ),
+        patches=patches,
+        cells=(6, 6, 1),
+    )
     before = reference(case)
     after = move(case)
     np.testing.assert_array_equal(after[:, 2], before[:, 2])
-    d = 0.5*displaced(before, [((1, 1, 0), (0.4, 0.2, 0))], (2, 2, 0),
-                      (0, 0, -1), (1, 1, 3))
+    d = 0.5 * displaced(
+        before, [((1, 1, 0), (0.4, 0.2, 0))], (2, 2, 0), (0, 0, -1), (1, 1, 3)
+    )
     np.testing.assert_allclose(after, before + d, rtol=0, atol=ROUND_OFF)
     lower, upper = np.split(np.lexsort(before.round(4).T), 2)
     # (blockMesh makes both sides alike to the last digit but one)
-    np.testing.assert_allclose(after[lower][:, :2], after[upper][:, :2],
-                               rtol=0, atol=4e-16)
+    np.testing.assert_allclose(
+        after[lower][:, :2], after[upper][:, :2], rtol=0, atol=4e-16
+    )
 
 
 ANGLE = np.radians(2.5)
@@ -272,15 +380,35 @@ ANGLE = np.radians(2.5)
 
 @pytest.mark.parametrize("inner", [0.2, 0])
 def test_points_of_a_wedge_keep_their_angle(tmp_path, inner):
-    corners = [(x, r*np.cos(ANGLE), z*r*np.sin(ANGLE)) for z in (-1, 1)
-               for x, r in ((0, inner), (1, inner), (1, 1), (0, 1))]
-    patches = {**CUBE, "zMin": "wedge", "zMax": "wedge",
-               "yMin": "patch" if inner else "empty"}
+    corners = [
+        (x, r * np.cos(ANGLE), z * r * np.sin(ANGLE))
+        for z in (-1, 1)
+        for x, r in ((0, inner), (1, inner), (1, 1), (0, 1))
+    ]
+    patches = {
+        **CUBE,
+        "zMin": "wedge",
+        "zMax": "wedge",
+        "yMin": "patch" if inner else "empty",
+    }
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter(
-            "a", [((1, 1, 0), (0.2, 0.3, 0.4)), ((1, 0, 0), (0.1, 0, 0))],
-            "1"), order=(2, 2, 0), origin=(0, 0, -1), span=(1, 1.1, 2)),
-        patches=patches, cells=(6, 6, 1), corners=corners, axis=not inner)
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter(
+                "a",
+                [((1, 1, 0), (0.2, 0.3, 0.4)), ((1, 0, 0), (0.1, 0, 0))],
+                "1",
+            ),
+            order=(2, 2, 0),
+            origin=(0, 0, -1),
+            span=(1, 1.1, 2),
+        ),
+        patches=patches,
+        cells=(6, 6, 1),
+        corners=corners,
+        axis=not inner,
+    )
     before = reference(case)
     after = move(case)
     axis = np.hypot(before[:, 1], before[:, 2]) < 1e-10
@@ -288,27 +416,45 @@ def test_points_of_a_wedge_keep_their_angle(tmp_path, inner):
     assert np.abs(after - before).max() > 0.05
     angle = np.arctan2(after[:, 2], after[:, 1])
     np.testing.assert_allclose(
-        angle[~axis], np.sign(before[~axis, 2])*ANGLE, rtol=0, atol=1e-14)
+        angle[~axis], np.sign(before[~axis, 2]) * ANGLE, rtol=0, atol=1e-14
+    )
     np.testing.assert_allclose(after[axis, 1:], 0, rtol=0, atol=1e-15)
 
     # In the plane between: axial and radial parts of the formula
     r = np.hypot(before[:, 1], before[:, 2])
-    flat = np.column_stack([before[:, 0], r, 0*r])
-    d = displaced(flat, [((1, 1, 0), (0.2, 0.3, 0)), ((1, 0, 0), (0.1, 0, 0))],
-                  (2, 2, 0), (0, 0, -1), (1, 1.1, 2))
-    np.testing.assert_allclose(after[:, 0] - before[:, 0], d[:, 0], rtol=0,
-                               atol=1e-13)
-    np.testing.assert_allclose(np.hypot(after[:, 1], after[:, 2]) - r, d[:, 1],
-                               rtol=0, atol=1e-13)
+    flat = np.column_stack([before[:, 0], r, 0 * r])
+    d = displaced(
+        flat,
+        [((1, 1, 0), (0.2, 0.3, 0)), ((1, 0, 0), (0.1, 0, 0))],
+        (2, 2, 0),
+        (0, 0, -1),
+        (1, 1.1, 2),
+    )
+    np.testing.assert_allclose(
+        after[:, 0] - before[:, 0], d[:, 0], rtol=0, atol=1e-13
+    )
+    np.testing.assert_allclose(
+        np.hypot(after[:, 1], after[:, 2]) - r, d[:, 1], rtol=0, atol=1e-13
+    )
 
 
 def test_symmetry_patches_keep_their_plane_and_the_log_says_what_that_took(
-        tmp_path):
+    tmp_path,
+):
     patches = {**CUBE, "xMax": "symmetryPlane", "yMax": "symmetry"}
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", [((2, 2, 1), (0.02, 0, 0.2)),
-                                                  ((1, 2, 1), (0, 0.03, 0.3))],
-                                            "1")), patches=patches, cells=CELLS)
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter(
+                "a",
+                [((2, 2, 1), (0.02, 0, 0.2)), ((1, 2, 1), (0, 0.03, 0.3))],
+                "1",
+            ),
+        ),
+        patches=patches,
+        cells=CELLS,
+    )
     before = reference(case)
     output = case.run("moveDynamicMesh")
     after = points_at(case, 1)
@@ -321,74 +467,111 @@ def test_symmetry_patches_keep_their_plane_and_the_log_says_what_that_took(
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_cyclic_pairs_move_alike(tmp_path, ranks):
-    patches = {**CUBE, "xMin": "cyclic; neighbourPatch xMax;",
-               "xMax": "cyclic; neighbourPatch xMin;"}
+    patches = {
+        **CUBE,
+        "xMin": "cyclic; neighbourPatch xMax;",
+        "xMax": "cyclic; neighbourPatch xMin;",
+    }
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", [((2, 1, 1), (0.1, 0, 0.2))],
-                                            "0.5")), patches=patches)
+        tmp_path,
+        ffd_box("body", parameter("a", [((2, 1, 1), (0.1, 0, 0.2))], "0.5")),
+        patches=patches,
+    )
     before = reference(case)
     if ranks > 1:
         case.decompose((2, 1, 1))
     output = case.run("moveDynamicMesh", ranks=ranks)
     after = points_at(case, 1)
     left, right = (np.flatnonzero(np.isclose(before[:, 0], x)) for x in (0, 1))
-    left, right = (these[np.lexsort(before[these].T[1:])]
-                   for these in (left, right))
+    left, right = (
+        these[np.lexsort(before[these].T[1:])] for these in (left, right)
+    )
     assert np.abs(after[left] - before[left]).max() > 0.005
-    np.testing.assert_allclose(after[right] - after[left],
-                               np.tile([1.0, 0, 0], (len(left), 1)),
-                               rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        after[right] - after[left],
+        np.tile([1.0, 0, 0], (len(left), 1)),
+        rtol=0,
+        atol=1e-15,
+    )
     assert "cyclic points are moved differently" in output
 
 
 @pytest.mark.parametrize("ranks", [1, 3])
 def test_rotational_pairs_move_alike(tmp_path, ranks):
     # A quarter of a ring; source of truth: the rotation of the patches
-    corners = [(r*c, r*s, z) for z in (0, 1) for r, (c, s) in (
-        (0.5, (1, 0)), (1, (1, 0)), (1, (0, 1)), (0.5, (0, 1)))]
-    turn = "transform rotational; rotationAxis (0 0 1);" \
+    corners = [
+        (r * c, r * s, z)
+        for z in (0, 1)
+        for r, (c, s) in (
+            (0.5, (1, 0)),
+            (1, (1, 0)),
+            (1, (0, 1)),
+            (0.5, (0, 1)),
+        )
+    ]
+    turn = (
+        "transform rotational; rotationAxis (0 0 1);"
         " rotationCentre (0 0 0);"
-    patches = {**CUBE, "yMin": f"cyclic; neighbourPatch yMax; {turn}",
-               "yMax": f"cyclic; neighbourPatch yMin; {turn}"}
+    )
+    patches = {
+        **CUBE,
+        "yMin": f"cyclic; neighbourPatch yMax; {turn}",
+        "yMax": f"cyclic; neighbourPatch yMin; {turn}",
+    }
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter(
-            "a", [((2, 0, 1), (0.05, 0.02, 0.1))], "0.5")),
-        patches=patches, corners=corners, cells=(4, 4, 4))
+        tmp_path,
+        ffd_box(
+            "body", parameter("a", [((2, 0, 1), (0.05, 0.02, 0.1))], "0.5")
+        ),
+        patches=patches,
+        corners=corners,
+        cells=(4, 4, 4),
+    )
     before = reference(case)
     if ranks > 1:
         case.decompose((1, 1, 3))
     case.run("moveDynamicMesh", ranks=ranks)
     after = points_at(case, 1)
-    first, last = (np.flatnonzero(np.isclose(before[:, a], 0, atol=1e-9))
-                   for a in (1, 0))
-    turned = np.stack([-before[first, 1], before[first, 0],
-                       before[first, 2]], 1)
-    partner = last[np.linalg.norm(
-        turned[:, None] - before[last], axis=2).argmin(axis=1)]
+    first, last = (
+        np.flatnonzero(np.isclose(before[:, a], 0, atol=1e-9)) for a in (1, 0)
+    )
+    turned = np.stack(
+        [-before[first, 1], before[first, 0], before[first, 2]], 1
+    )
+    partner = last[
+        np.linalg.norm(turned[:, None] - before[last], axis=2).argmin(axis=1)
+    ]
     assert np.abs(after[first] - before[first]).max() > 0.002
     np.testing.assert_allclose(
         after[partner],
         np.stack([-after[first, 1], after[first, 0], after[first, 2]], 1),
-        rtol=0, atol=1e-14)
+        rtol=0,
+        atol=1e-14,
+    )
 
 
 # --- parallel and restart
 
 
-PARALLEL = (ffd_box("one", parameter("a", MOVES, "0.1")
-                    + parameter("b", [((3, 1, 2), (0.1, 0.4, 0))], "0.3"),
-                    order=(4, 3, 2), extra="basis bSpline; degree (2 3 2);")
-            + ffd_box("two", parameter("c", [((1, 1, 1), (0.2, 0.3, 0.4))],
-                                       "0.4"),
-                      origin=(0.2, 0.1, 0.15), span=(0.6, 0.7, 0.7),
-                      extra="rotation { type axisAngle; axis (1 2 3);"
-                      " angle 5; }"))
+PARALLEL = ffd_box(
+    "one",
+    parameter("a", MOVES, "0.1")
+    + parameter("b", [((3, 1, 2), (0.1, 0.4, 0))], "0.3"),
+    order=(4, 3, 2),
+    extra="basis bSpline; degree (2 3 2);",
+) + ffd_box(
+    "two",
+    parameter("c", [((1, 1, 1), (0.2, 0.3, 0.4))], "0.4"),
+    origin=(0.2, 0.1, 0.15),
+    span=(0.6, 0.7, 0.7),
+    extra="rotation { type axisAngle; axis (1 2 3);" " angle 5; }",
+)
 
 
 def test_every_number_of_ranks_gives_the_same_points_to_the_bit(tmp_path):
     results = []
     for ranks in (1, 2, 3, 4):
-        case = ffd_case(tmp_path/str(ranks), PARALLEL, cells=(9, 8, 7))
+        case = ffd_case(tmp_path / str(ranks), PARALLEL, cells=(9, 8, 7))
         if ranks > 1:
             case.decompose({2: (2, 1, 1), 3: (1, 3, 1), 4: (2, 1, 2)}[ranks])
         results.append(move(case, ranks=ranks))
@@ -398,41 +581,58 @@ def test_every_number_of_ranks_gives_the_same_points_to_the_bit(tmp_path):
 
 
 def test_a_restart_is_the_uninterrupted_run_to_the_bit(tmp_path):
-    boxes = (ffd_box("one", parameter("a", MOVES, TABLE))
-             + ffd_box("two", parameter("b", [((1, 1, 1), (0, 0.8, 0))],
-                                        "table ((0 0) (4 1))")))
-    whole = ffd_case(tmp_path/"whole", boxes, cells=CELLS, control={"end": 4})
+    boxes = ffd_box("one", parameter("a", MOVES, TABLE)) + ffd_box(
+        "two",
+        parameter("b", [((1, 1, 1), (0, 0.8, 0))], "table ((0 0) (4 1))"),
+    )
+    whole = ffd_case(
+        tmp_path / "whole", boxes, cells=CELLS, control={"end": 4}
+    )
     whole.run("moveDynamicMesh")
-    parts = ffd_case(tmp_path/"parts", boxes, cells=CELLS, control={"end": 2})
+    parts = ffd_case(
+        tmp_path / "parts", boxes, cells=CELLS, control={"end": 2}
+    )
     parts.run("moveDynamicMesh")
-    control = (parts.path/"system/controlDict").read_text()
-    (parts.path/"system/controlDict").write_text(
-        control.replace("endTime 2;", "endTime 4;")
-        .replace("startFrom startTime;", "startFrom latestTime;"))
+    control = (parts.path / "system/controlDict").read_text()
+    (parts.path / "system/controlDict").write_text(
+        control.replace("endTime 2;", "endTime 4;").replace(
+            "startFrom startTime;", "startFrom latestTime;"
+        )
+    )
     parts.run("moveDynamicMesh")
     for time in (3, 4):
-        np.testing.assert_array_equal(points_at(parts, time),
-                                      points_at(whole, time))
+        np.testing.assert_array_equal(
+            points_at(parts, time), points_at(whole, time)
+        )
 
 
 @pytest.mark.parametrize("file", [False, True])
 def test_it_needs_no_pointDisplacement_and_does_not_mind_one(tmp_path, file):
-    case = ffd_case(tmp_path, ffd_box("body", parameter("a", MOVES, "0.5")),
-                    cells=CELLS)
+    case = ffd_case(
+        tmp_path, ffd_box("body", parameter("a", MOVES, "0.5")), cells=CELLS
+    )
     if file:
-        case.write("0/pointDisplacement", *point_field(
-            {name: fixed(0, 0, 0) for name in CUBE}))
+        case.write(
+            "0/pointDisplacement",
+            *point_field({name: fixed(0, 0, 0) for name in CUBE}),
+        )
     before = reference(case)
-    d = displaced(before, MOVES, (2, 2, 2), [-0.1]*3, [1.2]*3)
-    np.testing.assert_allclose(move(case), before + 0.5*d, rtol=0,
-                               atol=ROUND_OFF)
+    d = displaced(before, MOVES, (2, 2, 2), [-0.1] * 3, [1.2] * 3)
+    np.testing.assert_allclose(
+        move(case), before + 0.5 * d, rtol=0, atol=ROUND_OFF
+    )
 
 
 def test_a_motion_that_makes_the_mesh_invalid_is_limited_on_request(tmp_path):
     # Boundary torn from the inside: the lattice does not fold, the mesh does
-    boxes = ffd_box("body", parameter("a", [((0, 0, 0), (-0.9, 0, 0))], "1"),
-                    order=(0, 0, 0), origin=(0.4, -1, -1), span=(2, 3, 3),
-                    extra="continuity none;")
+    boxes = ffd_box(
+        "body",
+        parameter("a", [((0, 0, 0), (-0.9, 0, 0))], "1"),
+        order=(0, 0, 0),
+        origin=(0.4, -1, -1),
+        span=(2, 3, 3),
+        extra="continuity none;",
+    )
     case = ffd_case(tmp_path, boxes, "onInvalidMesh limit;")
     before = reference(case)
     after = move(case)
@@ -440,13 +640,15 @@ def test_a_motion_that_makes_the_mesh_invalid_is_limited_on_request(tmp_path):
     moved = before[:, 0] > 0.4
     assert (d[~moved] == 0).all()
     # Cells of 0.25 may lose all but a margin of a tenth of the valid part
-    np.testing.assert_allclose(d[moved, 0], -0.25*0.9, rtol=1e-2)
+    np.testing.assert_allclose(d[moved, 0], -0.25 * 0.9, rtol=1e-2)
 
 
-@pytest.mark.parametrize("continuity, layers", [("C0", 1), ("C1", 2),
-                                                ("C2", 3)])
+@pytest.mark.parametrize(
+    "continuity, layers", [("C0", 1), ("C1", 2), ("C2", 3)]
+)
 def test_continuity_is_that_of_the_first_layer_that_may_move(
-        tmp_path, continuity, layers):
+    tmp_path, continuity, layers
+):
     # Half of the mesh is in the box. Control points of layer i move the mesh
     # at a distance h from its face by C(n, i) h^i (1 - h)^(n - i): all
     # derivatives below the i-th vanish there
@@ -454,22 +656,34 @@ def test_continuity_is_that_of_the_first_layer_that_may_move(
 
     def case(name, layer):
         moves = [((layer, 1, 1), (0.05, 0.1, 0.05))]
-        return ffd_case(
-            tmp_path/name,
-            ffd_box("body", parameter("a", moves, "1"), order=(n, 2, 2),
-                    extra=f"continuity {continuity};", **place),
-            cells=(32, 2, 2)), moves
+        return (
+            ffd_case(
+                tmp_path / name,
+                ffd_box(
+                    "body",
+                    parameter("a", moves, "1"),
+                    order=(n, 2, 2),
+                    extra=f"continuity {continuity};",
+                    **place,
+                ),
+                cells=(32, 2, 2),
+            ),
+            moves,
+        )
 
     within, moves = case("within", layers)
     before = reference(within)
     after = move(within)
     np.testing.assert_allclose(
-        after, before + displaced(before, moves, (n, 2, 2), **place), rtol=0,
-        atol=ROUND_OFF)
+        after,
+        before + displaced(before, moves, (n, 2, 2), **place),
+        rtol=0,
+        atol=ROUND_OFF,
+    )
     line = np.isclose(before[:, 1], 0.5) & np.isclose(before[:, 2], 0.5)
     d = (after - before)[line][np.argsort(before[line, 0])][:, 1]
     assert (d[:17] == 0).all()
-    order = np.log2(d[18]/d[17])
+    order = np.log2(d[18] / d[17])
     assert layers - 0.3 < order < layers
 
     refused, _ = case("refused", layers - 1)
@@ -479,14 +693,20 @@ def test_continuity_is_that_of_the_first_layer_that_may_move(
 
 def test_cut_patches_are_named_where_continuity_is_none(tmp_path):
     case = ffd_case(
-        tmp_path, ffd_box("body", parameter("a", [((0, 1, 1), (0.01, 0, 0))],
-                                            "1"),
-                          origin=(0.4, -0.1, -0.1), span=(2, 1.2, 1.2),
-                          extra="continuity none;"))
+        tmp_path,
+        ffd_box(
+            "body",
+            parameter("a", [((0, 1, 1), (0.01, 0, 0))], "1"),
+            origin=(0.4, -0.1, -0.1),
+            span=(2, 1.2, 1.2),
+            extra="continuity none;",
+        ),
+    )
     output = " ".join(case.run("moveDynamicMesh").split())
-    assert re.findall(r"face (\w = \d) of box 'body' cuts through patches"
-                      r" \(([^)]*)\)", output) \
-        == [("s = 0", "yMin yMax zMin zMax")]
+    assert re.findall(
+        r"face (\w = \d) of box 'body' cuts through patches" r" \(([^)]*)\)",
+        output,
+    ) == [("s = 0", "yMin yMax zMin zMax")]
     assert "tears where parameters (a) move" in output
 
 
@@ -497,54 +717,80 @@ def test_two_regions_in_one_process_move_as_each_by_itself(tmp_path):
     build_program("moveRegions")
     boxes = {
         "left": PARALLEL,
-        "right": ffd_box("one", parameter("a", MOVES, TABLE),
-                         origin=(-0.2, -0.1, -0.3), span=(1.5, 1.4, 1.5))}
-    both = ffd_case(tmp_path/"both", PARALLEL, cells=CELLS, control={"end": 3})
+        "right": ffd_box(
+            "one",
+            parameter("a", MOVES, TABLE),
+            origin=(-0.2, -0.1, -0.3),
+            span=(1.5, 1.4, 1.5),
+        ),
+    }
+    both = ffd_case(
+        tmp_path / "both", PARALLEL, cells=CELLS, control={"end": 3}
+    )
     alone = {}
     for region, its in boxes.items():
-        alone[region] = ffd_case(tmp_path/region, its, cells=CELLS,
-                                 control={"end": 3})
+        alone[region] = ffd_case(
+            tmp_path / region, its, cells=CELLS, control={"end": 3}
+        )
         alone[region].run("moveDynamicMesh")
-        for name in ("constant/polyMesh", "constant/dynamicMeshDict",
-                     "system/fvSchemes", "system/fvSolution"):
+        for name in (
+            "constant/polyMesh",
+            "constant/dynamicMeshDict",
+            "system/fvSchemes",
+            "system/fvSolution",
+        ):
             there = pathlib.Path(name)
-            to = both.path/there.parent/region/there.name
+            to = both.path / there.parent / region / there.name
             to.parent.mkdir(parents=True, exist_ok=True)
             copy = shutil.copytree if there.name == "polyMesh" else shutil.copy
-            copy(alone[region].path/name, to)
+            copy(alone[region].path / name, to)
     both.run("moveRegions", "(left right)")
     for region in boxes:
         for time in (1, 2, 3):
             np.testing.assert_array_equal(
                 both.points(f"{time}/{region}/polyMesh/points"),
-                points_at(alone[region], time))
+                points_at(alone[region], time),
+            )
 
 
 def test_after_a_change_of_topology_the_motion_is_that_of_a_new_solver(
-        tmp_path):
+    tmp_path,
+):
     build_program("changeTopology")
-    case = ffd_case(tmp_path, ffd_box("body", parameter("a", MOVES, TABLE)),
-                    cells=(6, 5, 4))
+    case = ffd_case(
+        tmp_path,
+        ffd_box("body", parameter("a", MOVES, TABLE)),
+        cells=(6, 5, 4),
+    )
     output = case.run("changeTopology")
-    before, after = map(int, re.search(
-        r"cells (\d+) then (\d+)", output).groups())
+    before, after = map(
+        int, re.search(r"cells (\d+) then (\d+)", output).groups()
+    )
     assert 0 < after < before
     assert float(re.search(r"largest motion (\S+)", output)[1]) > 0.02
     assert float(re.search(r"largest difference (\S+)", output)[1]) == 0
 
 
 # Nine points on each side of the plane x = 0.5 and on it
-WHOLE = [((i, j, k), (0, 0, 1)) for i in range(2) for j in range(2)
-         for k in range(2)]
+WHOLE = [
+    ((i, j, k), (0, 0, 1))
+    for i in range(2)
+    for j in range(2)
+    for k in range(2)
+]
 
 
 def side_by_side(value="0.1", other="0.1", moves=WHOLE, extra=""):
-    how = dict(order=(1, 1, 1), span=(0.5, 1, 1),
-               extra="units metres; " + (extra or "continuity none;"))
-    return (ffd_box("left", parameter("m", moves, value), origin=(0, 0, 0),
-                    **how)
-            + ffd_box("right", parameter("m", WHOLE, other),
-                      origin=(0.5, 0, 0), **how))
+    how = dict(
+        order=(1, 1, 1),
+        span=(0.5, 1, 1),
+        extra="units metres; " + (extra or "continuity none;"),
+    )
+    return ffd_box(
+        "left", parameter("m", moves, value), origin=(0, 0, 0), **how
+    ) + ffd_box(
+        "right", parameter("m", WHOLE, other), origin=(0.5, 0, 0), **how
+    )
 
 
 @pytest.mark.parametrize("combine", ["chain", "sum"])
@@ -552,51 +798,79 @@ def side_by_side(value="0.1", other="0.1", moves=WHOLE, extra=""):
 def test_points_that_neighbours_share_move_once(tmp_path, combine, ranks):
     """Source of truth: partition of unity: all control points of both boxes
     move by 0.1, and so does every point of the mesh."""
-    case = ffd_case(tmp_path, side_by_side(), f"combine {combine};",
-                    cells=(8, 4, 4))
+    case = ffd_case(
+        tmp_path, side_by_side(), f"combine {combine};", cells=(8, 4, 4)
+    )
     before = reference(case)
     if ranks > 1:
         case.decompose((ranks, 1, 1))
-    np.testing.assert_allclose(move(case, ranks=ranks) - before,
-                               np.tile((0, 0, 0.1), (len(before), 1)),
-                               rtol=0, atol=ROUND_OFF)
+    np.testing.assert_allclose(
+        move(case, ranks=ranks) - before,
+        np.tile((0, 0, 0.1), (len(before), 1)),
+        rtol=0,
+        atol=ROUND_OFF,
+    )
 
 
 def test_mesh_in_a_neighbour_is_no_mesh_beyond_a_face(tmp_path):
     """With C0 the common face may move; the others end with the mesh. Source
     of truth: partition of unity."""
-    case = ffd_case(tmp_path, side_by_side(extra="continuity C0;"),
-                    cells=(8, 4, 4))
+    case = ffd_case(
+        tmp_path, side_by_side(extra="continuity C0;"), cells=(8, 4, 4)
+    )
     before = reference(case)
-    np.testing.assert_allclose(move(case)[:, 2] - before[:, 2], 0.1, rtol=0,
-                               atol=ROUND_OFF)
+    np.testing.assert_allclose(
+        move(case)[:, 2] - before[:, 2], 0.1, rtol=0, atol=ROUND_OFF
+    )
 
 
 def test_four_boxes_around_an_edge_move_what_they_share_once(tmp_path):
-    how = dict(order=(1, 1, 1), span=(0.5, 0.5, 1),
-               extra="units metres; continuity none;")
+    how = dict(
+        order=(1, 1, 1),
+        span=(0.5, 0.5, 1),
+        extra="units metres; continuity none;",
+    )
     boxes = "".join(
-        ffd_box(f"b{i}{j}", parameter("m", WHOLE, "0.1"),
-                origin=(0.5*i, 0.5*j, 0), **how)
-        for i in range(2) for j in range(2))
+        ffd_box(
+            f"b{i}{j}",
+            parameter("m", WHOLE, "0.1"),
+            origin=(0.5 * i, 0.5 * j, 0),
+            **how,
+        )
+        for i in range(2)
+        for j in range(2)
+    )
     case = ffd_case(tmp_path, boxes, cells=(4, 4, 2))
     before = reference(case)
-    np.testing.assert_allclose(move(case)[:, 2] - before[:, 2], 0.1, rtol=0,
-                               atol=ROUND_OFF)
+    np.testing.assert_allclose(
+        move(case)[:, 2] - before[:, 2], 0.1, rtol=0, atol=ROUND_OFF
+    )
 
 
 def test_boxes_in_one_another_are_no_neighbours(tmp_path):
     """A box inside another, with faces in common: both act. Source of truth:
     the formula, twice."""
     moves = [((1, 1, 1), (0, 0.4, 0))]
-    boxes = (ffd_box("outer", parameter("a", moves, "1"), origin=(0, 0, 0),
-                     span=(1, 1, 1), extra="continuity none;")
-             + ffd_box("inner", parameter("a", moves, "1"), origin=(0, 0, 0),
-                       span=(0.5, 0.5, 1), extra="continuity none;"))
+    boxes = ffd_box(
+        "outer",
+        parameter("a", moves, "1"),
+        origin=(0, 0, 0),
+        span=(1, 1, 1),
+        extra="continuity none;",
+    ) + ffd_box(
+        "inner",
+        parameter("a", moves, "1"),
+        origin=(0, 0, 0),
+        span=(0.5, 0.5, 1),
+        extra="continuity none;",
+    )
     case = ffd_case(tmp_path, boxes, "combine sum;", cells=(4, 4, 4))
     before = reference(case)
-    expected = (before + displaced(before, moves, (2, 2, 2), [0]*3, [1]*3)
-                + displaced(before, moves, (2, 2, 2), [0]*3, [0.5, 0.5, 1]))
+    expected = (
+        before
+        + displaced(before, moves, (2, 2, 2), [0] * 3, [1] * 3)
+        + displaced(before, moves, (2, 2, 2), [0] * 3, [0.5, 0.5, 1])
+    )
     np.testing.assert_allclose(move(case), expected, rtol=0, atol=ROUND_OFF)
 
 
@@ -604,16 +878,29 @@ def test_a_hexahedral_box_smaller_than_the_mesh_leaves_the_rest(tmp_path):
     """Eight corners of a cube: the formula of the plain box, and points
     outside stay to the bit."""
     low, high = 0.1, 0.9
-    corners = vectors([(low, low, low), (high, low, low), (high, high, low),
-                       (low, high, low), (low, low, high), (high, low, high),
-                       (high, high, high), (low, high, high)])
+    corners = vectors(
+        [
+            (low, low, low),
+            (high, low, low),
+            (high, high, low),
+            (low, high, low),
+            (low, low, high),
+            (high, low, high),
+            (high, high, high),
+            (low, high, high),
+        ]
+    )
     moves = [((1, 1, 1), (0.05, 0, 0))]
     case = ffd_case(
-        tmp_path, f"b {{ type corners; corners {corners}; order (2 2 2);"
+        tmp_path,
+        f"b {{ type corners; corners {corners}; order (2 2 2);"
         " units metres; continuity none; parameters {"
-        + parameter("m", moves, "1") + "} }", cells=(8, 8, 8))
+        + parameter("m", moves, "1")
+        + "} }",
+        cells=(8, 8, 8),
+    )
     before = reference(case)
-    d = displaced(before, moves, (2, 2, 2), [low]*3, [high - low]*3)
+    d = displaced(before, moves, (2, 2, 2), [low] * 3, [high - low] * 3)
     d /= high - low
     after = move(case)
     assert 0 < (np.abs(d).max(axis=1) > 0).sum() < len(before)
@@ -643,9 +930,16 @@ def test_a_face_that_lies_on_a_step_has_no_mesh_beyond(tmp_path, n, sides):
     may move along it. Source of truth: the formula; C0 at what is cut."""
     moves = [((0, 1, k), (0, 0.3, 0)) for k in range(2)]
     case = from_block_mesh(tmp_path, STEP.format(n=n, sides=sides))
-    write_boxes(case, ffd_box(
-        "recirculation", parameter("a", moves, "1"), order=(2, 3, 1),
-        origin=(1, 0, 0), span=(1, 1, 1)))
+    write_boxes(
+        case,
+        ffd_box(
+            "recirculation",
+            parameter("a", moves, "1"),
+            order=(2, 3, 1),
+            origin=(1, 0, 0),
+            span=(1, 1, 1),
+        ),
+    )
     before = reference(case)
     d = displaced(before, moves, (2, 3, 1), (1, 0, 0), (1, 1, 1))
     assert np.abs(d[(before[:, 0] == 1) & (before[:, 1] < 1)]).max() > 0.1
@@ -655,8 +949,15 @@ def test_a_face_that_lies_on_a_step_has_no_mesh_beyond(tmp_path, n, sides):
 def test_the_cut_faces_of_a_box_behind_a_step_stay_frozen(tmp_path):
     case = from_block_mesh(tmp_path, STEP.format(n=1, sides="empty"))
     for at, face in (((1, 3, 0), "t = 1"), ((2, 1, 0), "s = 1")):
-        write_boxes(case, ffd_box(
-            "recirculation", parameter("a", [(at, (0, 0.1, 0))], "1"),
-            order=(2, 3, 1), origin=(1, 0, 0), span=(1, 1, 1)))
+        write_boxes(
+            case,
+            ffd_box(
+                "recirculation",
+                parameter("a", [(at, (0, 0.1, 0))], "1"),
+                order=(2, 3, 1),
+                origin=(1, 0, 0),
+                span=(1, 1, 1),
+            ),
+        )
         output = case.run("moveDynamicMesh", status=1)
         assert "frozen layer" in output and face in output

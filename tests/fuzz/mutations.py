@@ -9,15 +9,48 @@
 import re
 
 NUMBER = re.compile(
-    rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])")
+    rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])"
+)
 WORD = re.compile(rb"[A-Za-z_][\w.]*")
-ENTRY = re.compile(rb"^[ \t]*([A-Za-z_][\w.]*)[ \t]+[^;{}()\n]*;", re.MULTILINE)
+ENTRY = re.compile(
+    rb"^[ \t]*([A-Za-z_][\w.]*)[ \t]+[^;{}()\n]*;", re.MULTILINE
+)
 
-NUMBERS = [b"0", b"-1", b"1e300", b"-1e300", b"1e400", b"1e-150", b"nan",
-           b"inf", b"99999", b"2000000000", b"99999999999999", b"1e15",
-           b"1e-15", b"0.5", b"7", b"3.7", b"", b"one"]
-WORDS = [b"", b"none", b"yes", b"wall", b"0", b"1e5", b"auto", b"(", b"()",
-         b"\"\"", b"a" * 300, b"$x", b"#calc"]
+NUMBERS = [
+    b"0",
+    b"-1",
+    b"1e300",
+    b"-1e300",
+    b"1e400",
+    b"1e-150",
+    b"nan",
+    b"inf",
+    b"99999",
+    b"2000000000",
+    b"99999999999999",
+    b"1e15",
+    b"1e-15",
+    b"0.5",
+    b"7",
+    b"3.7",
+    b"",
+    b"one",
+]
+WORDS = [
+    b"",
+    b"none",
+    b"yes",
+    b"wall",
+    b"0",
+    b"1e5",
+    b"auto",
+    b"(",
+    b"()",
+    b'""',
+    b"a" * 300,
+    b"$x",
+    b"#calc",
+]
 
 
 def pick(pattern, text, random):
@@ -26,7 +59,7 @@ def pick(pattern, text, random):
 
 
 def replaced(text, match, by):
-    return text[:match.start()] + by + text[match.end():]
+    return text[: match.start()] + by + text[match.end() :]
 
 
 def number(text, random):
@@ -62,25 +95,40 @@ def gone(text, random):
 
 def doubled(text, random):
     match = pick(ENTRY, text, random)
-    return match and replaced(text, match, match.group()*2)
+    return match and replaced(text, match, match.group() * 2)
 
 
 def bracket(text, random):
     match = pick(re.compile(rb"[(){};]"), text, random)
     return match and replaced(
-        text, match, random.choice([b"", b"(", b")", b"{", b"}", b";"]))
+        text, match, random.choice([b"", b"(", b")", b"{", b"}", b";"])
+    )
 
 
 def count(text, random):
     match = pick(re.compile(rb"\b\d+(?=\s*[({])"), text, random)
-    return match and replaced(text, match, random.choice(
-        [b"2000000000", b"-1", b"0", b"1", str(int(match.group()) + 1).encode(),
-         b"600000000"]))
+    return match and replaced(
+        text,
+        match,
+        random.choice(
+            [
+                b"2000000000",
+                b"-1",
+                b"0",
+                b"1",
+                str(int(match.group()) + 1).encode(),
+                b"600000000",
+            ]
+        ),
+    )
 
 
 def repeated(text, random):
-    return re.sub(rb"\(", b"2000000000{", text, count=1) \
-        if random.random() < 0.5 else text.replace(b"(", b"5{", 1)
+    return (
+        re.sub(rb"\(", b"2000000000{", text, count=1)
+        if random.random() < 0.5
+        else text.replace(b"(", b"5{", 1)
+    )
 
 
 def line(text, random):
@@ -88,13 +136,19 @@ def line(text, random):
     if not lines:
         return None
     i = random.randrange(len(lines))
-    return b"".join(random.choice([
-        lines[:i] + lines[i + 1:], lines[:i] + [lines[i]]*2 + lines[i + 1:],
-        lines[:i] + random.sample(lines, 1) + lines[i:]]))
+    return b"".join(
+        random.choice(
+            [
+                lines[:i] + lines[i + 1 :],
+                lines[:i] + [lines[i]] * 2 + lines[i + 1 :],
+                lines[:i] + random.sample(lines, 1) + lines[i:],
+            ]
+        )
+    )
 
 
 def cut(text, random):
-    return text[:random.randrange(len(text))] if text else None
+    return text[: random.randrange(len(text))] if text else None
 
 
 def empty(text, random):
@@ -116,8 +170,11 @@ def flipped(text, random):
 
 def scaled(text, random):
     factor = random.choice([1e-150, 1e150, 1e-12, 0])
-    return re.sub(rb"(?<![\w.])-?\d+\.\d+(?:e[-+]?\d+)?(?![\w.])",
-                  lambda m: repr(float(m.group())*factor).encode(), text)
+    return re.sub(
+        rb"(?<![\w.])-?\d+\.\d+(?:e[-+]?\d+)?(?![\w.])",
+        lambda m: repr(float(m.group()) * factor).encode(),
+        text,
+    )
 
 
 def coincident(text, random):
@@ -128,11 +185,41 @@ def coincident(text, random):
     return replaced(text, random.choice(tuples), random.choice(tuples).group())
 
 
-TEXT = [number, number, number, word, word, misspelt, valueless, braces, gone,
-        doubled, bracket, count, repeated, line, cut, empty, zeros, flipped,
-        coincident]
-TABLE = [number, number, number, line, cut, empty, zeros, flipped, scaled,
-         count, coincident, word]
+TEXT = [
+    number,
+    number,
+    number,
+    word,
+    word,
+    misspelt,
+    valueless,
+    braces,
+    gone,
+    doubled,
+    bracket,
+    count,
+    repeated,
+    line,
+    cut,
+    empty,
+    zeros,
+    flipped,
+    coincident,
+]
+TABLE = [
+    number,
+    number,
+    number,
+    line,
+    cut,
+    empty,
+    zeros,
+    flipped,
+    scaled,
+    count,
+    coincident,
+    word,
+]
 BINARY = [cut, empty, zeros, flipped, flipped]
 
 
@@ -141,8 +228,9 @@ def mutate(path, random, kinds=TEXT):
     the words around it, for which a message may be looked up."""
     before = path.read_bytes()
     for _ in range(50):
-        mistake = random.choice(["absent", "folder", *kinds]
-                                if random.random() < 0.1 else kinds)
+        mistake = random.choice(
+            ["absent", "folder", *kinds] if random.random() < 0.1 else kinds
+        )
         if mistake in ("absent", "folder"):
             path.unlink()
             if mistake == "folder":
@@ -161,6 +249,8 @@ def difference(before, after):
     for i in range(max(len(a), len(b))):
         old, new = a[i] if i < len(a) else b"", b[i] if i < len(b) else b""
         if old != new:
-            return (f"line {i + 1}: {old[:70].decode(errors='replace')!r} -> "
-                    f"{new[:70].decode(errors='replace')!r}")
+            return (
+                f"line {i + 1}: {old[:70].decode(errors='replace')!r} -> "
+                f"{new[:70].decode(errors='replace')!r}"
+            )
     return ""

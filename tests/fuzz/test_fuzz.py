@@ -18,14 +18,16 @@ from fuzzer import fuzz
 def test_spoilt_files_end_in_messages():
     trials, _ = fuzz(seed=2026, n=30)
     assert len(trials) == 30
-    assert not [(t.situation, t.file, t.change, t.fault)
-                for t in trials if t.fault]
+    assert not [
+        (t.situation, t.file, t.change, t.fault) for t in trials if t.fault
+    ]
     # Some are harmless and some are not, or nothing was tried
     assert {t.status for t in trials} == {0, 1}
 
 
-@pytest.mark.parametrize("kinds", [mutations.TEXT, mutations.TABLE,
-                                   mutations.BINARY])
+@pytest.mark.parametrize(
+    "kinds", [mutations.TEXT, mutations.TABLE, mutations.BINARY]
+)
 def test_a_mutation_changes_the_file_and_a_seed_repeats_it(tmp_path, kinds):
     text = b"order (3 2 2);\nlist 3((0 0 0) (1 0.5 1e-3));\n"
     results = []
@@ -33,10 +35,11 @@ def test_a_mutation_changes_the_file_and_a_seed_repeats_it(tmp_path, kinds):
         rng = random.Random(7)
         results.append([])
         for i in range(20):
-            path = tmp_path/f"{attempt}.{i}"
+            path = tmp_path / f"{attempt}.{i}"
             path.write_bytes(text)
             mutations.mutate(path, rng, kinds)
             results[-1].append(
-                path.read_bytes() if path.is_file() else path.is_dir())
+                path.read_bytes() if path.is_file() else path.is_dir()
+            )
     assert results[0] == results[1]
     assert sum(content == text for content in results[0]) == 0

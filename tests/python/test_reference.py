@@ -20,34 +20,45 @@ def reference():
 
 
 def rows(reference, name):
-    return [reference.plain(row[0]) for row in reference.header(name).entries()]
+    return [
+        reference.plain(row[0]) for row in reference.header(name).entries()
+    ]
 
 
 def test_no_entry_is_without_a_row(reference):
     missing = {
-        title: sorted(reference.entries_of(name, sources)
-                      - set(rows(reference, name)))
-        for title, name, sources in reference.DICTIONARIES}
+        title: sorted(
+            reference.entries_of(name, sources) - set(rows(reference, name))
+        )
+        for title, name, sources in reference.DICTIONARIES
+    }
     assert not {title: names for title, names in missing.items() if names}
 
 
 def test_no_row_is_without_an_entry(reference):
     idle = {
-        title: sorted(set(rows(reference, name))
-                      - reference.entries_of(name, sources))
-        for title, name, sources in reference.DICTIONARIES}
+        title: sorted(
+            set(rows(reference, name)) - reference.entries_of(name, sources)
+        )
+        for title, name, sources in reference.DICTIONARIES
+    }
     assert not {title: names for title, names in idle.items() if names}
 
 
 def test_every_source_that_reads_a_dictionary_has_a_place(reference):
     """A new dictionary gets a line in docs/reference.py."""
-    known = {source for _, name, sources in reference.DICTIONARIES
-             for source in sources or [name]} | set(reference.NOT_A_USERS)
+    known = {
+        source
+        for _, name, sources in reference.DICTIONARIES
+        for source in sources or [name]
+    } | set(reference.NOT_A_USERS)
     homeless = {
         path.stem: sorted(reference.entries_read(path.read_text()))
-        for path in (ROOT/"src").rglob("*.C")
-        if "lnInclude" not in path.parts and path.stem not in known
-        and reference.entries_read(path.read_text())}
+        for path in (ROOT / "src").rglob("*.C")
+        if "lnInclude" not in path.parts
+        and path.stem not in known
+        and reference.entries_read(path.read_text())
+    }
     assert not homeless
 
 
@@ -61,28 +72,43 @@ def test_every_table_of_entries_is_in_the_reference(reference):
     names = {name for _, name, _ in reference.DICTIONARIES}
     # Classes that others build on; their rows are in the tables of those
     names |= {"ffdBoxes"}
-    homeless = [path.stem for path in (ROOT/"src").rglob("*.H")
-                if "lnInclude" not in path.parts and path.stem not in names
-                and reference.ClassHeader(path).entries()]
+    homeless = [
+        path.stem
+        for path in (ROOT / "src").rglob("*.H")
+        if "lnInclude" not in path.parts
+        and path.stem not in names
+        and reference.ClassHeader(path).entries()
+    ]
     assert not homeless
 
 
-@pytest.mark.parametrize("source, read", [
-    ('a = dict.get<vector>("span");', {"span"}),
-    ('n_(dict.getOrDefault<scalar>("min", -GREAT)),', {"min"}),
-    ('if (coeffs.found("controlPoints"))', {"controlPoints"}),
-    ('getPositive(dict, "radius")', {"radius"}),
-    ('Function1<scalar>::New("value", dict)', {"value"}),
-    ('onlyKeys\n(\n    dict,\n    {"type", name + "Coeffs"}\n);',
-     {"type", "<name>Coeffs"}),
-    ('wordList keys({"tolerance", "maxPoints"});', {"tolerance", "maxPoints"}),
-    ('keys.append("degree");', {"degree"}),
-    ('for (const char* key : {"surface", "target"})', {"surface", "target"}),
-    ('return {"origin", "axis"};', {"origin", "axis"}),
-    ('{ policy::error, "error" }', set()),
-    ('<< "Entry \'order\' is " << order', set()),
-    ('mesh.lookupObject<pointVectorField>("pointDisplacement")', set()),
-])
+@pytest.mark.parametrize(
+    "source, read",
+    [
+        ('a = dict.get<vector>("span");', {"span"}),
+        ('n_(dict.getOrDefault<scalar>("min", -GREAT)),', {"min"}),
+        ('if (coeffs.found("controlPoints"))', {"controlPoints"}),
+        ('getPositive(dict, "radius")', {"radius"}),
+        ('Function1<scalar>::New("value", dict)', {"value"}),
+        (
+            'onlyKeys\n(\n    dict,\n    {"type", name + "Coeffs"}\n);',
+            {"type", "<name>Coeffs"},
+        ),
+        (
+            'wordList keys({"tolerance", "maxPoints"});',
+            {"tolerance", "maxPoints"},
+        ),
+        ('keys.append("degree");', {"degree"}),
+        (
+            'for (const char* key : {"surface", "target"})',
+            {"surface", "target"},
+        ),
+        ('return {"origin", "axis"};', {"origin", "axis"}),
+        ('{ policy::error, "error" }', set()),
+        ("<< \"Entry 'order' is \" << order", set()),
+        ('mesh.lookupObject<pointVectorField>("pointDisplacement")', set()),
+    ],
+)
 def test_entries_are_found_in_sources(reference, source, read):
     """Each form in which the sources name an entry."""
     assert reference.entries_read(source) == read

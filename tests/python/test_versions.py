@@ -16,15 +16,25 @@ import pytest
 from foamCase import ROOT, environment
 from rbfCase import groups, rbf_case
 
-SCRIPT = ROOT/"tests/versions/Allcheck"
+SCRIPT = ROOT / "tests/versions/Allcheck"
 
 
 def allcheck(*arguments):
     done = subprocess.run(
-        [SCRIPT, *map(str, arguments)], stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE, universal_newlines=True)
-    row = [cell.strip() for cell in done.stdout.splitlines()[-1].split("|")
-           if cell.strip()] if done.stdout else []
+        [SCRIPT, *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        universal_newlines=True,
+    )
+    row = (
+        [
+            cell.strip()
+            for cell in done.stdout.splitlines()[-1].split("|")
+            if cell.strip()
+        ]
+        if done.stdout
+        else []
+    )
     return done.returncode, row, done.stderr
 
 
@@ -32,14 +42,17 @@ def allcheck(*arguments):
 def script():
     loader = importlib.machinery.SourceFileLoader("Allcheck", str(SCRIPT))
     module = importlib.util.module_from_spec(
-        importlib.util.spec_from_loader("Allcheck", loader))
+        importlib.util.spec_from_loader("Allcheck", loader)
+    )
     loader.exec_module(module)
     return module
 
 
 def contents(folder):
-    return {path: os.lstat(path).st_mtime_ns
-            for path in [folder, *folder.glob("*"), *folder.glob("src/*")]}
+    return {
+        path: os.lstat(path).st_mtime_ns
+        for path in [folder, *folder.glob("*"), *folder.glob("src/*")]
+    }
 
 
 def test_a_file_compiles_against_the_openfoam_that_builds_us():
@@ -47,19 +60,21 @@ def test_a_file_compiles_against_the_openfoam_that_builds_us():
     with open(os.path.join(env["WM_PROJECT_DIR"], "META-INFO/api-info")) as f:
         api = f.read().split()[0].removeprefix("api=")
     status, row, errors = allcheck(
-        "-files", "src/motion/uniformDisplacement.C", env["WM_PROJECT_DIR"])
+        "-files", "src/motion/uniformDisplacement.C", env["WM_PROJECT_DIR"]
+    )
     assert (status, errors) == (0, "")
     assert row == ["v" + api, "1", "0", "0", "0", "0"]
 
 
 def test_what_does_not_compile_is_told_and_the_tree_stays(tmp_path):
     """A release without any header."""
-    (tmp_path/"META-INFO").mkdir()
-    (tmp_path/"src/OpenFOAM").mkdir(parents=True)
-    (tmp_path/"META-INFO/api-info").write_text("api=3012\npatch=0\n")
+    (tmp_path / "META-INFO").mkdir()
+    (tmp_path / "src/OpenFOAM").mkdir(parents=True)
+    (tmp_path / "META-INFO/api-info").write_text("api=3012\npatch=0\n")
     before = contents(tmp_path)
     status, row, errors = allcheck(
-        "-files", "src/motion/(uniform|values)Displacement.C", tmp_path)
+        "-files", "src/motion/(uniform|values)Displacement.C", tmp_path
+    )
     assert status == 1
     assert row == ["v3012", "0", "2", "0", "0", "0"]
     assert "src/motion/uniformDisplacement.C does not compile" in errors
@@ -91,15 +106,21 @@ def test_deprecated_calls_count_where_we_make_them(script):
 def test_the_words_of_every_release_are_understood(tmp_path, key, libraries):
     """As docs/pages/versions.md has them. Source of truth: motionSolver::New
     and dlLibraryTable of each release."""
-    case = rbf_case(tmp_path, coeffs=groups(
-        top="type moving; patches (zMax); displacement { type uniform;"
-        " value (0 0 0.1); }", bottom="type fixed; patches (zMin);"))
-    dictionary = tmp_path/"constant/dynamicMeshDict"
+    case = rbf_case(
+        tmp_path,
+        coeffs=groups(
+            top="type moving; patches (zMax); displacement { type uniform;"
+            " value (0 0 0.1); }",
+            bottom="type fixed; patches (zMin);",
+        ),
+    )
+    dictionary = tmp_path / "constant/dynamicMeshDict"
     text = dictionary.read_text().replace(
-        "motionSolver        rbf", f"{key}        rbf")
+        "motionSolver        rbf", f"{key}        rbf"
+    )
     if libraries == "controlDict":
         text = text.replace("motionSolverLibs    (morphMotionSolvers);", "")
-        with open(tmp_path/"system/controlDict", "a") as control:
+        with open(tmp_path / "system/controlDict", "a") as control:
             control.write("libs (morphMotionSolvers);\n")
     dictionary.write_text(text)
     case.run("moveDynamicMesh")
@@ -108,9 +129,13 @@ def test_the_words_of_every_release_are_understood(tmp_path, key, libraries):
 
 def test_every_source_file_is_compiled(script):
     listed = subprocess.run(
-        ["git", "ls-files", "*.C"], cwd=ROOT, stdout=subprocess.PIPE,
-        universal_newlines=True)
+        ["git", "ls-files", "*.C"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        universal_newlines=True,
+    )
     if listed.returncode:
         pytest.skip("no git repository")
-    assert {str(ROOT/path) for path in listed.stdout.split()} \
-        <= set(script.sourceFiles())
+    assert {str(ROOT / path) for path in listed.stdout.split()} <= set(
+        script.sourceFiles()
+    )

@@ -45,16 +45,19 @@ displacementLaplacianCoeffs { diffusivity uniform; }
 """
 
 # To and fro twice
-TOP = ("oscillatingDisplacement; amplitude (0.2 0.1 0.1);"
-       " omega 2.5132741228718345; value uniform (0 0 0);")
+TOP = (
+    "oscillatingDisplacement; amplitude (0.2 0.1 0.1);"
+    " omega 2.5132741228718345; value uniform (0 0 0);"
+)
 
 
 def velocities(path):
     text = path.read_text()
     if "internalField   uniform" in text:
         return np.array([VELOCITY])
-    body = re.search(r"nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text,
-                     re.DOTALL)
+    body = re.search(
+        r"nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text, re.DOTALL
+    )
     numbers = body.group(1).replace("(", " ").replace(")", " ").split()
     return np.array(numbers, float).reshape(-1, 3)
 
@@ -62,43 +65,67 @@ def velocities(path):
 def deviation(path, motion):
     """The largest of the velocity, of all times."""
     case = from_block_mesh(
-        path, block_mesh(CUBE, cells=(8, 8, 8)),
-        {"end": STEPS*STEP, "deltaT": STEP, "writeInterval": STEPS//8})
+        path,
+        block_mesh(CUBE, cells=(8, 8, 8)),
+        {"end": STEPS * STEP, "deltaT": STEP, "writeInterval": STEPS // 8},
+    )
     files = {
         "constant/dynamicMeshDict": motion,
-        "constant/transportProperties":
-            "transportModel Newtonian; nu 0.001;",
+        "constant/transportProperties": "transportModel Newtonian; nu 0.001;",
         "constant/turbulenceProperties": "simulationType laminar;",
         "system/fvSchemes": SCHEMES,
-        "system/fvSolution": SOLUTION}
+        "system/fvSolution": SOLUTION,
+    }
     for name, body in files.items():
         case.write(name, "dictionary", body)
     velocity = "uniform (%g %g %g)" % VELOCITY
-    case.write("0/U", "volVectorField", "dimensions [0 1 -1 0 0 0 0];"
-               f" internalField {velocity}; boundaryField {{"
-               f' ".*" {{ type fixedValue; value {velocity}; }}'
-               " xMax { type zeroGradient; } }")
-    case.write("0/p", "volScalarField",
-               "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
-               ' boundaryField { ".*" { type zeroGradient; }'
-               " xMax { type fixedValue; value uniform 0; } }")
-    case.write("0/pointDisplacement", *point_field(
-        {**{side: "zeroGradient" for side in CUBE},
-         "zMin": fixed(0, 0, 0), "zMax": TOP}))
+    case.write(
+        "0/U",
+        "volVectorField",
+        "dimensions [0 1 -1 0 0 0 0];"
+        f" internalField {velocity}; boundaryField {{"
+        f' ".*" {{ type fixedValue; value {velocity}; }}'
+        " xMax { type zeroGradient; } }",
+    )
+    case.write(
+        "0/p",
+        "volScalarField",
+        "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
+        ' boundaryField { ".*" { type zeroGradient; }'
+        " xMax { type fixedValue; value uniform 0; } }",
+    )
+    case.write(
+        "0/pointDisplacement",
+        *point_field(
+            {
+                **{side: "zeroGradient" for side in CUBE},
+                "zMin": fixed(0, 0, 0),
+                "zMax": TOP,
+            }
+        ),
+    )
     case.run("pimpleFoam")
-    times = [time for time in case.path.glob("[0-9]*")
-             if time.name != "0" and (time/"U").exists()]
+    times = [
+        time
+        for time in case.path.glob("[0-9]*")
+        if time.name != "0" and (time / "U").exists()
+    ]
     assert len(times) >= 8
-    points = np.array([case.points(time/"polyMesh/points") for time in times])
+    points = np.array(
+        [case.points(time / "polyMesh/points") for time in times]
+    )
     assert np.ptp(points, axis=0).max() > 0.3
-    return max(np.abs(velocities(time/"U") - VELOCITY).max()
-               for time in times)
+    return max(
+        np.abs(velocities(time / "U") - VELOCITY).max() for time in times
+    )
 
 
 def test_uniform_flow_stays_uniform_while_the_mesh_moves(tmp_path):
-    ours = deviation(tmp_path/"ours", DROP_IN)
-    laplacian = deviation(tmp_path/"laplacian", LAPLACIAN)
-    print(f"largest deviation: {ours:.2g}, displacementLaplacian "
-          f"{laplacian:.2g}")
+    ours = deviation(tmp_path / "ours", DROP_IN)
+    laplacian = deviation(tmp_path / "laplacian", LAPLACIAN)
+    print(
+        f"largest deviation: {ours:.2g}, displacementLaplacian "
+        f"{laplacian:.2g}"
+    )
     assert ours < 1e-9
-    assert ours < 30*laplacian
+    assert ours < 30 * laplacian

@@ -22,61 +22,97 @@ FLAT = {**CUBE, "yMin": "empty", "yMax": "empty"}
 def gap_case(path, extra="", flat=True):
     """Two sheets of points in the middle of a box, a gap apart, of which the
     lower one slides along the other; flat: two lines in a plane."""
-    low = [(0.1*i, 0.1*j, 0.5) for i in range(11)
-           for j in range(1 if flat else 11)]
+    low = [
+        (0.1 * i, 0.1 * j, 0.5)
+        for i in range(11)
+        for j in range(1 if flat else 11)
+    ]
     high = [(x, y, z + GAP) for x, y, z in low]
-    sheets = [" ".join(f"({x!r} {y!r} {z!r})" for x, y, z in sheet)
-              for sheet in (low, high)]
-    mesh = {"patches": FLAT, "cells": (10, 1, 10)} if flat else {
-        "cells": (10, 10, 10)}
-    return rbf_case(path, **mesh, coeffs=extra + groups(
-        lower=f"type moving; points ({sheets[0]}); displacement"
-              f" {{ type uniform; value ({STEP} 0 0); }}",
-        upper=f"type fixed; points ({sheets[1]});"))
+    sheets = [
+        " ".join(f"({x!r} {y!r} {z!r})" for x, y, z in sheet)
+        for sheet in (low, high)
+    ]
+    mesh = (
+        {"patches": FLAT, "cells": (10, 1, 10)}
+        if flat
+        else {"cells": (10, 10, 10)}
+    )
+    return rbf_case(
+        path,
+        **mesh,
+        coeffs=extra
+        + groups(
+            lower=f"type moving; points ({sheets[0]}); displacement"
+            f" {{ type uniform; value ({STEP} 0 0); }}",
+            upper=f"type fixed; points ({sheets[1]});",
+        ),
+    )
 
 
 def vectors(text):
     """The vectors in a text."""
-    return [np.array(v.split(), float) for v in re.findall(r"\(([^)]*)\)", text)]
+    return [
+        np.array(v.split(), float) for v in re.findall(r"\(([^)]*)\)", text)
+    ]
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_the_warning_names_two_points_and_a_remedy_that_works(tmp_path, ranks):
-    case = gap_case(tmp_path/"before", "onInvalidMesh ignore;")
+    case = gap_case(tmp_path / "before", "onInvalidMesh ignore;")
     if ranks > 1:
         case.decompose((1, 1, ranks))
     output = case.run("moveDynamicMesh", ranks=ranks)
-    reached, told = map(float, re.search(
-        r"Points move by up to (\S+) m, at .*? where no control point moves by"
-        r" more than (\S+) m", output, re.DOTALL).groups())
-    assert told == pytest.approx(STEP) and reached > 2*STEP
-    sentence = re.search(r"The control points at (.*?), (\S+) m apart, move by"
-                         r" (.*?)\n", output, re.DOTALL)
+    reached, told = map(
+        float,
+        re.search(
+            r"Points move by up to (\S+) m, at .*? where no control point moves by"
+            r" more than (\S+) m",
+            output,
+            re.DOTALL,
+        ).groups(),
+    )
+    assert told == pytest.approx(STEP) and reached > 2 * STEP
+    sentence = re.search(
+        r"The control points at (.*?), (\S+) m apart, move by" r" (.*?)\n",
+        output,
+        re.DOTALL,
+    )
     assert float(sentence[2]) == pytest.approx(GAP)
     one, other = vectors(sentence[1])
     assert np.linalg.norm(one - other) == pytest.approx(GAP)
     moves = sorted(np.linalg.norm(v) for v in vectors(sentence[3]))
     assert moves[1] - moves[0] == pytest.approx(STEP, rel=0.02)
 
-    within = float(re.search(r"'kernel wendlandC0', with which they go no"
-                             r" further than (\S+) m", output)[1])
-    case = gap_case(tmp_path/"advised", "kernel wendlandC0;")
+    within = float(
+        re.search(
+            r"'kernel wendlandC0', with which they go no"
+            r" further than (\S+) m",
+            output,
+        )[1]
+    )
+    case = gap_case(tmp_path / "advised", "kernel wendlandC0;")
     if ranks > 1:
         case.decompose((1, 1, ranks))
     after = move(case, ranks=ranks)
-    assert np.abs(after - reference(case)).max() <= 1.01*within < 2*STEP
+    assert np.abs(after - reference(case)).max() <= 1.01 * within < 2 * STEP
 
 
 def test_no_kernel_is_offered_that_would_not_help(tmp_path):
     # Dense solves: 0.60 with wendlandC2, 0.33 with wendlandC0
     output = gap_case(tmp_path, "onInvalidMesh ignore;", flat=False).run(
-        "moveDynamicMesh")
+        "moveDynamicMesh"
+    )
     assert "Points move by up to 0.59" in output
     assert "wendlandC0" not in output and "Move them less" in output
 
 
 def test_a_motion_without_a_gap_is_not_warned_of(tmp_path):
-    case = rbf_case(tmp_path, coeffs=groups(
-        top="type moving; patches (zMax); displacement { type uniform;"
-            " value (0.05 0 0); }", bottom="type fixed; patches (zMin);"))
+    case = rbf_case(
+        tmp_path,
+        coeffs=groups(
+            top="type moving; patches (zMax); displacement { type uniform;"
+            " value (0.05 0 0); }",
+            bottom="type fixed; patches (zMin);",
+        ),
+    )
     assert "Points move by up to" not in case.run("moveDynamicMesh")

@@ -13,12 +13,18 @@ import pytest
 from boxCase import fixed, vectors
 from rbfCase import rbf_case, reference
 
-CONDITIONS = {"zMax": fixed(0, 0, 0.05), "zMin": fixed(0, 0, 0),
-              "xMin": "slip", "xMax": "slip", "yMin": "slip", "yMax": "slip"}
+CONDITIONS = {
+    "zMax": fixed(0, 0, 0.05),
+    "zMin": fixed(0, 0, 0),
+    "xMin": "slip",
+    "xMax": "slip",
+    "yMin": "slip",
+    "yMax": "slip",
+}
 
 
 def write_points(case, points):
-    file = case.path/"constant/polyMesh/points"
+    file = case.path / "constant/polyMesh/points"
     head = file.read_text().split("\n\n")[0]
     text = file.read_text()
     start = text.index("}", text.index("FoamFile")) + 1
@@ -33,10 +39,15 @@ def at(points, x):
 @pytest.mark.parametrize("surface", ["planar", "curved"])
 def test_an_edge_without_length_leaves_the_plane_as_it_is(tmp_path, surface):
     case = rbf_case(
-        tmp_path, cells=(4, 4, 4), conditions=CONDITIONS, coeffs="""
+        tmp_path,
+        cells=(4, 4, 4),
+        conditions=CONDITIONS,
+        coeffs="""
         supportRadius 2; onInvalidMesh ignore; controlPoints {
         top { type moving; patches (zMax); } bottom { type fixed; patches (zMin); }
-        side { type sliding; patches (xMin); surface %s; } }""" % surface)
+        side { type sliding; patches (xMin); surface %s; } }"""
+        % surface,
+    )
     points = reference(case)
     points[at(points, (0, 0.5, 0.5))] = points[at(points, (0, 0.5, 0.25))]
     write_points(case, points)
@@ -49,13 +60,19 @@ def test_an_edge_without_length_leaves_the_plane_as_it_is(tmp_path, surface):
 
 def test_a_point_without_any_area_around_it_is_named(tmp_path):
     case = rbf_case(
-        tmp_path, cells=(4, 4, 4), conditions=CONDITIONS, coeffs="""
+        tmp_path,
+        cells=(4, 4, 4),
+        conditions=CONDITIONS,
+        coeffs="""
         supportRadius 2; onInvalidMesh ignore; controlPoints {
         top { type moving; patches (zMax); } bottom { type fixed; patches (zMin); }
-        side { type sliding; patches (xMin); surface curved; } }""")
+        side { type sliding; patches (xMin); surface curved; } }""",
+    )
     points = reference(case)
     # All points of the side between y = 0.25 and 0.75 are one
-    middle = (points[:, 0] == 0) & (np.abs(points[:, 1:] - 0.5).max(axis=1) < 0.26)
+    middle = (points[:, 0] == 0) & (
+        np.abs(points[:, 1:] - 0.5).max(axis=1) < 0.26
+    )
     points[middle] = (0, 0.5, 0.5)
     write_points(case, points)
     output = case.run("moveDynamicMesh", status=1)

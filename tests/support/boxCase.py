@@ -17,8 +17,14 @@ import tempfile
 
 from foamCase import FoamCase
 
-SIDES = {"xMin": "0 4 7 3", "xMax": "1 2 6 5", "yMin": "0 1 5 4",
-         "yMax": "3 7 6 2", "zMin": "0 3 2 1", "zMax": "4 5 6 7"}
+SIDES = {
+    "xMin": "0 4 7 3",
+    "xMax": "1 2 6 5",
+    "yMin": "0 1 5 4",
+    "yMax": "3 7 6 2",
+    "zMin": "0 3 2 1",
+    "zMax": "4 5 6 7",
+}
 
 MESH = """
 scale 1;
@@ -72,8 +78,15 @@ def vectors(rows):
     return "(" + " ".join(f"({words(row)})" for row in rows) + ")"
 
 
-def block_mesh(patches, cells=(4, 4, 4), low=(0, 0, 0), high=(1, 1, 1),
-               grading=(1, 1, 1), corners=None, axis=False):
+def block_mesh(
+    patches,
+    cells=(4, 4, 4),
+    low=(0, 0, 0),
+    high=(1, 1, 1),
+    grading=(1, 1, 1),
+    corners=None,
+    axis=False,
+):
     """The blockMeshDict of a box.
 
     corners: in place of low and high, in the order of hex.
@@ -84,28 +97,51 @@ def block_mesh(patches, cells=(4, 4, 4), low=(0, 0, 0), high=(1, 1, 1),
     """
     if corners is None:
         (x0, y0, z0), (x1, y1, z1) = low, high
-        corners = [(x, y, z) for z in (z0, z1)
-                   for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
+        corners = [
+            (x, y, z)
+            for z in (z0, z1)
+            for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+        ]
     label = {"4": "0", "5": "1"} if axis else {}
     boundary = ""
     for name, given in patches.items():
         kind, sides = given if isinstance(given, tuple) else (given, name)
         faces = " ".join(
             f"({' '.join(label.get(v, v) for v in SIDES[side].split())})"
-            for side in sides.split())
+            for side in sides.split()
+        )
         kind = kind if ";" in kind else f"{kind};"
         boundary += f"{name} {{ type {kind} faces ({faces}); }}\n"
     return MESH.format(
-        vertices=vectors(corners)[1:-1], boundary=boundary,
+        vertices=vectors(corners)[1:-1],
+        boundary=boundary,
         block=" ".join(label.get(v, v) for v in "01234567"),
-        cells="{} {} {}".format(*cells), grading=words(grading))
+        cells="{} {} {}".format(*cells),
+        grading=words(grading),
+    )
 
 
-def write_control(case, end=1, deltaT=1, format="ascii", digits=17,
-                  startFrom="startTime", writeInterval=1):
-    case.write("system/controlDict", "dictionary", CONTROL.format(
-        end=end, deltaT=deltaT, format=format, digits=digits,
-        startFrom=startFrom, writeInterval=writeInterval))
+def write_control(
+    case,
+    end=1,
+    deltaT=1,
+    format="ascii",
+    digits=17,
+    startFrom="startTime",
+    writeInterval=1,
+):
+    case.write(
+        "system/controlDict",
+        "dictionary",
+        CONTROL.format(
+            end=end,
+            deltaT=deltaT,
+            format=format,
+            digits=digits,
+            startFrom=startFrom,
+            writeInterval=writeInterval,
+        ),
+    )
 
 
 def from_block_mesh(path, block_mesh_dict, control=None):
@@ -124,12 +160,16 @@ def box(path, patches, control=None, **mesh):
 def point_field(conditions, dimensions="0 1 0 0 0 0 0"):
     """A pointVectorField with these boundary conditions."""
     boundary = "\n".join(
-        f"{patch} {{ type {condition}" + (" }" if condition.endswith(";")
-                                          else "; }")
-        for patch, condition in conditions.items())
-    return ("pointVectorField", f"dimensions [{dimensions}];\n"
-            "internalField uniform (0 0 0);\n"
-            f"boundaryField\n{{\n{boundary}\n}}")
+        f"{patch} {{ type {condition}"
+        + (" }" if condition.endswith(";") else "; }")
+        for patch, condition in conditions.items()
+    )
+    return (
+        "pointVectorField",
+        f"dimensions [{dimensions}];\n"
+        "internalField uniform (0 0 0);\n"
+        f"boundaryField\n{{\n{boundary}\n}}",
+    )
 
 
 def fixed(*value):

@@ -14,8 +14,9 @@ import numpy as np
 
 from boxCase import box, point_field
 
-CUBE = {side: "patch"
-        for side in ("xMin", "xMax", "yMin", "yMax", "zMin", "zMax")}
+CUBE = {
+    side: "patch" for side in ("xMin", "xMax", "yMin", "yMax", "zMin", "zMax")
+}
 
 DROP_IN = """
 dynamicFvMesh       dynamicMotionSolverFvMesh;
@@ -24,8 +25,15 @@ motionSolver        rbfMotionSolver;
 """
 
 
-def rbf_case(path, conditions=None, coeffs=None, patches=None, extra="",
-             control=None, **mesh):
+def rbf_case(
+    path,
+    conditions=None,
+    coeffs=None,
+    patches=None,
+    extra="",
+    control=None,
+    **mesh,
+):
     """A box that rbfMotionSolver moves.
 
     conditions: of 0/pointDisplacement; without, there is no such file.
@@ -43,8 +51,11 @@ def rbf_case(path, conditions=None, coeffs=None, patches=None, extra="",
 
 def groups(**bodies):
     """controlPoints with these groups."""
-    return "controlPoints\n{\n" + "\n".join(
-        f"{name} {{ {body} }}" for name, body in bodies.items()) + "\n}"
+    return (
+        "controlPoints\n{\n"
+        + "\n".join(f"{name} {{ {body} }}" for name, body in bodies.items())
+        + "\n}"
+    )
 
 
 def reference(case):
@@ -77,15 +88,20 @@ def side(points, name):
 
 def ulps(points):
     """An absolute tolerance of a few units in the last place of points."""
-    return 4*np.finfo(float).eps*np.abs(points).max()
+    return 4 * np.finfo(float).eps * np.abs(points).max()
 
 
-SELECTED = (r"^rbfMotionSolver: selected (\d+) of (\d+) control points, "
-            r"largest error (\S+) \(tolerance (\S+)\), selection (\S+) s$")
+SELECTED = (
+    r"^rbfMotionSolver: selected (\d+) of (\d+) control points, "
+    r"largest error (\S+) \(tolerance (\S+)\), selection (\S+) s$"
+)
 
 
 def selections(output):
     """What the log says of each selection: selected, of, error, tolerance."""
-    return [(int(n), int(of), float(error), float(tolerance))
-            for n, of, error, tolerance, _
-            in re.findall(SELECTED, output, re.MULTILINE)]
+    return [
+        (int(n), int(of), float(error), float(tolerance))
+        for n, of, error, tolerance, _ in re.findall(
+            SELECTED, output, re.MULTILINE
+        )
+    ]

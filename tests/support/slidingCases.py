@@ -13,16 +13,21 @@ from boxCase import from_block_mesh, vectors
 from rbfCase import DROP_IN
 
 
-def annulus_mesh(cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0,
-                 ends="patch"):
+def annulus_mesh(
+    cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0, ends="patch"
+):
     """Between two cylinders along z: patches hub, casing, zMin, zMax.
 
     cells: around in each quarter, radial, along.
     ends: type of the patches zMin and zMax.
     """
-    angles = np.arange(4)*np.pi/2
-    corners = [(r*np.cos(a), r*np.sin(a), z) for z in (0, length)
-               for r in (inner, outer) for a in angles]
+    angles = np.arange(4) * np.pi / 2
+    corners = [
+        (r * np.cos(a), r * np.sin(a), z)
+        for z in (0, length)
+        for r in (inner, outer)
+        for a in angles
+    ]
     blocks, arcs = "", ""
     hub, casing, low, high = "", "", "", ""
     for i in range(4):
@@ -31,14 +36,18 @@ def annulus_mesh(cells=(6, 5, 8), inner=0.5, outer=1.0, length=1.0,
         base = (i, 4 + i, 4 + j, j)
         top = tuple(v + 8 for v in base)
         label = " ".join(map(str, base + top))
-        blocks += (f"hex ({label}) ({cells[1]} {cells[0]} {cells[2]})"
-                   " simpleGrading (1 1 1)\n")
-        middle = (i + 0.5)*np.pi/2
+        blocks += (
+            f"hex ({label}) ({cells[1]} {cells[0]} {cells[2]})"
+            " simpleGrading (1 1 1)\n"
+        )
+        middle = (i + 0.5) * np.pi / 2
         for level, z in ((0, 0), (8, length)):
             for ring, r in ((0, inner), (4, outer)):
-                x = r*np.cos(middle), r*np.sin(middle), z
-                arcs += (f"arc {level + ring + i} {level + ring + j} "
-                         f"{vectors([x])[1:-1]}\n")
+                x = r * np.cos(middle), r * np.sin(middle), z
+                arcs += (
+                    f"arc {level + ring + i} {level + ring + j} "
+                    f"{vectors([x])[1:-1]}\n"
+                )
         hub += f"({i} {j} {8 + j} {8 + i}) "
         casing += f"({4 + i} {4 + j} {12 + j} {12 + i}) "
         low += f"({' '.join(map(str, base))}) "
@@ -60,8 +69,11 @@ boundary
 
 def annulus(path, coeffs, control=None, **mesh):
     case = from_block_mesh(path, annulus_mesh(**mesh), control)
-    case.write("constant/dynamicMeshDict", "dictionary",
-               DROP_IN + f"rbfMotionSolverCoeffs\n{{\n{coeffs}\n}}")
+    case.write(
+        "constant/dynamicMeshDict",
+        "dictionary",
+        DROP_IN + f"rbfMotionSolverCoeffs\n{{\n{coeffs}\n}}",
+    )
     return case
 
 
@@ -70,10 +82,12 @@ def duct_obj(radius, sectors, low=-0.5, high=1.5):
 
     (Numbers of STL files are read in single precision.)
     """
-    angles = np.arange(sectors)*2*np.pi/sectors
+    angles = np.arange(sectors) * 2 * np.pi / sectors
     text = "".join(
         f"v {float(radius*np.cos(a))!r} {float(radius*np.sin(a))!r} {z!r}\n"
-        for z in (low, high) for a in angles)
+        for z in (low, high)
+        for a in angles
+    )
     for i in range(sectors):
         a, b = 1 + i, 1 + (i + 1) % sectors
         text += f"f {a} {b} {b + sectors}\nf {a} {b + sectors} {a + sectors}\n"
@@ -87,5 +101,8 @@ def stl_of(obj):
     facets = "".join(
         "facet normal 0 0 0\nouter loop\n"
         + "".join(f"vertex {vertices[int(i) - 1]}\n" for i in line[1:])
-        + "endloop\nendfacet\n" for line in lines if line[0] == "f")
+        + "endloop\nendfacet\n"
+        for line in lines
+        if line[0] == "f"
+    )
     return f"solid duct\n{facets}endsolid duct\n"

@@ -114,18 +114,33 @@ def test_uniform_laplacian_is_valid_at_one_degree_and_not_at_two(
 def test_small_steps_of_a_uniform_laplacian_get_as_far_as_one(case, angles):
     # The same linear problem, on the mesh of the step before instead of that at
     # rest: the limit, between 1 and 2 degrees in one step, is hardly another
-    run(case, "./Allrun.angles", "-noPictures", "-motions",
-        "laplacianUniform", "-largest", "2", "-smallSteps")
+    run(
+        case,
+        "./Allrun.angles",
+        "-noPictures",
+        "-motions",
+        "laplacianUniform",
+        "-largest",
+        "2",
+        "-smallSteps",
+    )
     with (case / "results/angles.csv").open() as file:
-        rows = {(row["linear solver"], row["steps"]): row
-                for row in csv.DictReader(file)}
+        rows = {
+            (row["linear solver"], row["steps"]): row
+            for row in csv.DictReader(file)
+        }
     one = rows["converged", "one"]
     small = rows["converged", "of 0.1 deg"]
-    valid, invalid = (float(small[name]) for name in
-                      ("largest valid [deg]", "first invalid [deg]"))
+    valid, invalid = (
+        float(small[name])
+        for name in ("largest valid [deg]", "first invalid [deg]")
+    )
     assert invalid == pytest.approx(valid + 0.1)
-    assert (float(one["largest valid [deg]"]) <= valid
-            < float(one["first invalid [deg]"]) + 0.5)
+    assert (
+        float(one["largest valid [deg]"])
+        <= valid
+        < float(one["first invalid [deg]"]) + 0.5
+    )
 
 
 def test_rbf_is_valid_at_ninety_degrees_in_one_step(angles):

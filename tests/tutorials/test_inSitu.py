@@ -16,11 +16,11 @@ matplotlib = pytest.importorskip("matplotlib.image")
 
 
 def test_picture_of_the_running_solver(tmp_path):
-    if not list((ROOT/"build").glob("*/lib/libmorphCatalyst.so")):
+    if not list((ROOT / "build").glob("*/lib/libmorphCatalyst.so")):
         pytest.skip("ParaView's development files are not on this machine")
     case = tutorial("pitchingAerofoilInSitu", tmp_path)
     run(case, "./Allrun", "-endTime", "0.5")
-    log = (case/"runs/case/log.pimpleFoam").read_text()
+    log = (case / "runs/case/log.pimpleFoam").read_text()
     assert "selected 67 of 372 control points" in log
     assert "a script failed" not in log
     found = list(case.glob("runs/case/postProcessing/catalyst/*.png"))
@@ -31,8 +31,16 @@ def test_picture_of_the_running_solver(tmp_path):
     # The aerofoil is a hole, control points are red, pressure is coloured
     assert 0.02 < ((red > 0.99) & (green > 0.99) & (blue > 0.99)).mean() < 0.2
     assert ((red > 0.75) & (green < 0.25) & (blue < 0.25)).sum() > 100
-    assert len({tuple(pixel) for row in (picture[::20]*255).astype(int)
-                for pixel in row[::20]}) > 100
+    assert (
+        len(
+            {
+                tuple(pixel)
+                for row in (picture[::20] * 255).astype(int)
+                for pixel in row[::20]
+            }
+        )
+        > 100
+    )
     # No fields were written for it
-    assert not (case/"runs/case/0.5/U").exists()
-    assert (case/"results/contactSheet.png").exists()
+    assert not (case / "runs/case/0.5/U").exists()
+    assert (case / "results/contactSheet.png").exists()

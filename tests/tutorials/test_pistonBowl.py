@@ -28,8 +28,9 @@ def test_points_stay_on_the_surfaces_they_slide_on(results, motion, surface):
     assert float(results[motion][f"off {surface}"]) <= 1e-12
 
 
-@pytest.mark.parametrize("motion, angle", [
-    ("stroke", 29), ("offset", 36), ("reentrant", 40)])
+@pytest.mark.parametrize(
+    "motion, angle", [("stroke", 29), ("offset", 36), ("reentrant", 40)]
+)
 def test_the_mesh_keeps_its_quality(results, motion, angle):
     row = results[motion]
     assert float(row["wrong faces"]) == 0

@@ -17,22 +17,38 @@ from tutorialCase import run, tutorial
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
     case = tutorial("slidingCylinder", tmp_path_factory.mktemp("cylinder"))
-    run(case, "./Allrun", "-noPictures", "-motions", "rbf", "rbfSubSteps",
-        "laplacianUniform", "-walls", "sliding")
+    run(
+        case,
+        "./Allrun",
+        "-noPictures",
+        "-motions",
+        "rbf",
+        "rbfSubSteps",
+        "laplacianUniform",
+        "-walls",
+        "sliding",
+    )
     with (case / "results/largest.csv").open() as file:
-        return {row["motion"]: {name: float(value)
-                                for name, value in row.items()
-                                if name not in ("motion", "walls")}
-                for row in csv.DictReader(file)}
+        return {
+            row["motion"]: {
+                name: float(value)
+                for name, value in row.items()
+                if name not in ("motion", "walls")
+            }
+            for row in csv.DictReader(file)
+        }
 
 
 def test_rbf_moves_the_body_twice_as_far_as_a_uniform_laplacian(results):
     # 5.5 is where the cylinder meets the end of the duct
     assert 4.2 < results["rbf"]["largest valid"] < 5.5
-    assert (results["rbf"]["largest valid"]
-            > 2 * results["laplacianUniform"]["largest valid"])
+    assert (
+        results["rbf"]["largest valid"]
+        > 2 * results["laplacianUniform"]["largest valid"]
+    )
     assert results["laplacianUniform"]["largest valid"] == pytest.approx(
-        2.04, abs=0.03)
+        2.04, abs=0.03
+    )
 
 
 def test_sub_steps_take_the_body_almost_to_the_end(results):

@@ -16,27 +16,43 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def tutorial(name, folder):
     """A copy of a tutorial as it is in the repository, in a house of its own."""
-    house = Path(folder)/"house"
+    house = Path(folder) / "house"
     house.mkdir()
     for part in ("bin", "etc", "python", "build"):
-        (house/part).symlink_to(ROOT/part)
+        (house / part).symlink_to(ROOT / part)
     # Others may be referred to, and are not changed
-    (house/"tutorials").mkdir()
-    for other in (ROOT/"tutorials").iterdir():
+    (house / "tutorials").mkdir()
+    for other in (ROOT / "tutorials").iterdir():
         if other.name != name:
-            (house/"tutorials"/other.name).symlink_to(other)
-    copy = house/"tutorials"/name
+            (house / "tutorials" / other.name).symlink_to(other)
+    copy = house / "tutorials" / name
     shutil.copytree(
-        ROOT/"tutorials"/name, copy,
+        ROOT / "tutorials" / name,
+        copy,
         ignore=shutil.ignore_patterns(
-            "0", "[1-9]*", "runs", "results", "log.*", "polyMesh",
-            "postProcessing", "processor*", "*.foam", "__pycache__"))
+            "0",
+            "[1-9]*",
+            "runs",
+            "results",
+            "log.*",
+            "polyMesh",
+            "postProcessing",
+            "processor*",
+            "*.foam",
+            "__pycache__",
+        ),
+    )
     return copy
 
 
 def run(folder, *command, status=0):
     """What the command prints; it has to exit with the given status."""
-    done = subprocess.run(command, cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     assert done.returncode == status, done.stdout[-3000:]
     return done.stdout

@@ -12,9 +12,18 @@ value = 0.35
 for step in range(8):
     Path("results/value").write_text(f"{value!r};\n")
     done = subprocess.run(
-        ["morphSurface", "-dict", "constant/boxes", "-constraints",
-         "results/input.stl", "results/nozzle.obj"],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        [
+            "morphSurface",
+            "-dict",
+            "constant/boxes",
+            "-constraints",
+            "results/input.stl",
+            "results/nozzle.obj",
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
     Path(f"log.morphSurface.{step}").write_text(done.stdout)
     if done.returncode:
         sys.exit(done.stdout)
@@ -27,8 +36,10 @@ for step in range(8):
     walls = [name for name in values if name.startswith("wall")]
     thinnest = min(walls, key=lambda name: float(values[name][0]))
     missed = float(values[thinnest][0]) - 0.8
-    print(f"open {value:.6f} m: {thinnest} at {0.8 + missed:.9f} of its"
-          f" thickness, volume {float(values['material'][0]):.6f}")
+    print(
+        f"open {value:.6f} m: {thinnest} at {0.8 + missed:.9f} of its"
+        f" thickness, volume {float(values['material'][0]):.6f}"
+    )
     if abs(missed) < 1e-9:
         break
-    value -= missed/float(slopes[thinnest][0])
+    value -= missed / float(slopes[thinnest][0])

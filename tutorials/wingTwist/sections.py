@@ -29,8 +29,10 @@ for z in np.unique(before[:, 2]):
     worst = max(worst, np.abs(new - factor * old).max())
     assert np.ptp(b[:, 2]) < 1e-12
 tip = before[:, 2] == before[:, 2].max()
-nose, tail = (after[tip][np.argmin(before[tip, 0])],
-              after[tip][np.argmax(before[tip, 0])])
+nose, tail = (
+    after[tip][np.argmin(before[tip, 0])],
+    after[tip][np.argmax(before[tip, 0])],
+)
 chord = tail - nose
 angle = np.degrees(np.arctan2(chord[1], chord[0]))
 print(f"Shape of the sections: kept to {worst:.1e} m")

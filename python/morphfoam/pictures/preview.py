@@ -211,17 +211,29 @@ def sheet(folder, output, direction=(-2, -3, 1.5), most=60):
             ax = axes[i // pairs, 2 * (i % pairs) + side]
             ax.set_title(f"{name}, {bound} ({largest:.3g} m)", fontsize=7)
             if bound not in bounds:
-                ax.text(0.5, 0.5, "no bound,\nor it folds", ha="center",
-                        va="center", fontsize=7, transform=ax.transAxes)
+                ax.text(
+                    0.5,
+                    0.5,
+                    "no bound,\nor it folds",
+                    ha="center",
+                    va="center",
+                    fontsize=7,
+                    transform=ax.transAxes,
+                )
                 continue
             path = bounds[bound]
-            picture.draw(ax, surfaces[path], faces, moved[path],
-                         largest, lattices)
+            picture.draw(
+                ax, surfaces[path], faces, moved[path], largest, lattices
+            )
             ax.set_xlim(low[0] - margin, high[0] + margin)
             ax.set_ylim(low[1] - margin, high[1] + margin)
     figure.subplots_adjust(
-        left=0.01, right=0.99, top=1 - 0.35 / figure.get_figheight(),
-        bottom=0.02, hspace=0.15, wspace=0.03,
+        left=0.01,
+        right=0.99,
+        top=1 - 0.35 / figure.get_figheight(),
+        bottom=0.02,
+        hspace=0.15,
+        wspace=0.03,
     )
     figure.savefig(output, dpi=120)
     plt.close(figure)
@@ -234,8 +246,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("output", type=Path, nargs="?")
-    parser.add_argument("-direction", type=float, nargs=3,
-                        default=(-2, -3, 1.5))
+    parser.add_argument(
+        "-direction", type=float, nargs=3, default=(-2, -3, 1.5)
+    )
     parser.add_argument("-most", type=int, default=60)
     arguments = parser.parse_args()
     if not arguments.folder.is_dir():

@@ -17,7 +17,6 @@ namespace morph
 class Communicator
 {
 public:
-
     virtual ~Communicator() = default;
 
     virtual int rank() const = 0;
@@ -38,27 +37,22 @@ public:
     double bytes() const { return bytes_; }
 
 protected:
-
     void count(std::size_t values)
     {
         ++operations_;
-        bytes_ += double(values*sizeof(double));
+        bytes_ += double(values * sizeof(double));
     }
 
 private:
-
     long operations_ = 0;
     double bytes_ = 0;
 };
 
 
 // One rank
-class SerialCommunicator
-:
-    public Communicator
+class SerialCommunicator : public Communicator
 {
 public:
-
     int rank() const override { return 0; }
 
     int size() const override { return 1; }

@@ -18,12 +18,8 @@ double availableMemory();
 
 // Throws std::runtime_error on all ranks if the bytes requested by all ranks
 // are not available. what: name of the data, for the message. Collective.
-void requireMemory
-(
-    double bytes,
-    const std::string& what,
-    Communicator& communicator
-);
+void requireMemory(
+    double bytes, const std::string& what, Communicator& communicator);
 
 } // namespace morph
 

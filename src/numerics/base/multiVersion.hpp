@@ -9,11 +9,12 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
     #if __GNUC__ >= 12
-        #define MORPH_MULTIVERSION __attribute__((target_clones \
-            ("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+        #define MORPH_MULTIVERSION \
+            __attribute__(( \
+                target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
     #else
-        #define MORPH_MULTIVERSION __attribute__((target_clones \
-            ("avx512f", "avx2", "default")))
+        #define MORPH_MULTIVERSION \
+            __attribute__((target_clones("avx512f", "avx2", "default")))
     #endif
 #else
     #define MORPH_MULTIVERSION

@@ -22,24 +22,21 @@ BSpline BSpline::bernstein(Index degree)
 
 
 BSpline::BSpline(Index nPoints, Index degree, Ends ends)
-:
-    size_(nPoints),
-    degree_(degree),
-    periodic_(ends == Ends::periodic),
-    spans_(periodic_ ? nPoints : nPoints - degree)
+: size_(nPoints),
+  degree_(degree),
+  periodic_(ends == Ends::periodic),
+  spans_(periodic_ ? nPoints : nPoints - degree)
 {
     if (degree < 0 || degree >= nPoints)
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "degree " + std::to_string(degree) + " of a B-spline with "
-          + std::to_string(nPoints)
-          + " control points: it has to be smaller than their number"
-        );
+            + std::to_string(nPoints)
+            + " control points: it has to be smaller than their number");
     }
-    for (Index i = 0; i < spans_ + 2*degree_ + 1; ++i)
+    for (Index i = 0; i < spans_ + 2 * degree_ + 1; ++i)
     {
-        const double u = double(i - degree_)/double(spans_);
+        const double u = double(i - degree_) / double(spans_);
         knots_.push_back(periodic_ ? u : std::min(std::max(u, 0.0), 1.0));
     }
 }
@@ -53,20 +50,14 @@ double BSpline::spanStart(Index span) const
 
 Index BSpline::spanOf(double s) const
 {
-    const Index span = Index(std::floor(s*double(spans_)));
+    const Index span = Index(std::floor(s * double(spans_)));
     return std::min(std::max(span, Index(0)), spans_ - 1);
 }
 
 
 // The triangle of Cox and de Boor (Piegl and Tiller, The NURBS Book, A2.2):
 // every operation adds positive numbers
-void BSpline::coxDeBoor
-(
-    Index span,
-    double s,
-    Index degree,
-    double* row
-) const
+void BSpline::coxDeBoor(Index span, double s, Index degree, double* row) const
 {
     const Index k = span + degree_;
     row[0] = 1;
@@ -77,9 +68,9 @@ void BSpline::coxDeBoor
         {
             const double right = knot(k + i + 1) - s;
             const double left = s - knot(k + 1 - d + i);
-            const double part = row[i]/(right + left);
-            row[i] = carried + right*part;
-            carried = left*part;
+            const double part = row[i] / (right + left);
+            row[i] = carried + right * part;
+            carried = left * part;
         }
         row[d] = carried;
     }
@@ -97,8 +88,8 @@ Index BSpline::values(double s, double* row, double* derivatives) const
         double carried = 0;
         for (Index i = 0; i < degree_; ++i)
         {
-            const double part = double(degree_)*row[i]
-               /(knot(span + degree_ + 1 + i) - knot(span + 1 + i));
+            const double part = double(degree_) * row[i]
+                / (knot(span + degree_ + 1 + i) - knot(span + 1 + i));
             derivatives[i] = carried - part;
             carried = part;
         }
@@ -134,7 +125,7 @@ Index BSpline::control(Index extended) const
         return extended;
     }
     // Function e reaches from knot e - degree to e + 1, in spans
-    const Index middle = extended - degree_ + (degree_ + 1)/2;
+    const Index middle = extended - degree_ + (degree_ + 1) / 2;
     return (middle % size_ + size_) % size_;
 }
 
@@ -153,11 +144,13 @@ Matrix BSpline::extraction(Index span) const
     Matrix ours(n, n), bernsteins(n, n);
     for (Index place = 0; place < n; ++place)
     {
-        const double u = n > 1 ? double(place)/double(n - 1) : 0.5;
-        coxDeBoor(span, start + u*length, degree_, ours.col(place).data());
+        const double u = n > 1 ? double(place) / double(n - 1) : 0.5;
+        coxDeBoor(span, start + u * length, degree_, ours.col(place).data());
         bernsteinRow(degree_, u, bernsteins.col(place).data());
     }
-    return bernsteins.transpose().partialPivLu().solve(ours.transpose())
+    return bernsteins.transpose()
+        .partialPivLu()
+        .solve(ours.transpose())
         .transpose();
 }
 

@@ -22,7 +22,6 @@ namespace morph
 class BSpline
 {
 public:
-
     enum class Ends
     {
         clamped,
@@ -70,7 +69,6 @@ public:
     Matrix extraction(Index span) const;
 
 private:
-
     double knot(Index i) const { return knots_[std::size_t(i)]; }
 
     void coxDeBoor(Index span, double s, Index degree, double* row) const;

@@ -17,8 +17,8 @@ void bernsteinRow(Index n, double s, double* row)
         for (Index i = 0; i < degree; ++i)
         {
             const double former = row[i];
-            row[i] = carried + (1 - s)*former;
-            carried = s*former;
+            row[i] = carried + (1 - s) * former;
+            carried = s * former;
         }
         row[degree] = carried;
     }
@@ -30,7 +30,7 @@ double binomial(Index n, Index i)
     double value = 1;
     for (Index k = 1; k <= std::min(i, n - i); ++k)
     {
-        value = value*double(n - k + 1)/double(k);
+        value = value * double(n - k + 1) / double(k);
     }
     return value;
 }

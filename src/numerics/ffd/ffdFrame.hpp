@@ -23,7 +23,6 @@ namespace morph
 class FfdFrame
 {
 public:
-
     virtual ~FfdFrame() = default;
 
     // Box coordinates xi of a point, also outside the box; not a number if
@@ -37,18 +36,12 @@ public:
     virtual Vector3 displacement(const Vector3& x, const Vector3& d) const;
 
     // The derivative of displacement by d
-    virtual Eigen::Matrix3d displacementByLattice
-    (
-        const Vector3& x,
-        const Vector3& d
-    ) const;
+    virtual Eigen::Matrix3d
+    displacementByLattice(const Vector3& x, const Vector3& d) const;
 
     // The derivative of displacement by x, at constant d
-    virtual Eigen::Matrix3d displacementByPosition
-    (
-        const Vector3& x,
-        const Vector3& d
-    ) const;
+    virtual Eigen::Matrix3d
+    displacementByPosition(const Vector3& x, const Vector3& d) const;
 
     // d xi / d x
     virtual Eigen::Matrix3d gradient(const Vector3& x) const = 0;
@@ -65,11 +58,8 @@ public:
 
     // The displacement, in coordinates of the frame, of a lattice point whose
     // rest is at xi, by a vector in fractions of the box
-    virtual Vector3 fromFractions
-    (
-        const Vector3& xi,
-        const Vector3& fractions
-    ) const;
+    virtual Vector3
+    fromFractions(const Vector3& xi, const Vector3& fractions) const;
 
     // The same for a vector along the axes of the box in the units of its span
     virtual Vector3 fromUnits(const Vector3& vector) const = 0;
@@ -83,34 +73,24 @@ public:
 
 
 // A rectangular box in any direction
-class AffineFrame
-:
-    public FfdFrame
+class AffineFrame : public FfdFrame
 {
 public:
-
     // origin [m], lengths of the sides [m], their directions as columns.
     // Throws std::invalid_argument unless the lengths are positive
-    AffineFrame
-    (
-        const Vector3& origin,
-        const Vector3& span,
-        const Eigen::Matrix3d& axes
-    );
+    AffineFrame(
+        const Vector3& origin, const Vector3& span,
+        const Eigen::Matrix3d& axes);
 
     Vector3 coordinates(const Vector3& x) const override;
     Vector3 position(const Vector3& xi) const override;
     Eigen::Matrix3d gradient(const Vector3& x) const override;
     Vector3 frameCoordinates(const Vector3& xi) const override;
-    Vector3 fromFractions
-    (
-        const Vector3& xi,
-        const Vector3& fractions
-    ) const override;
+    Vector3
+    fromFractions(const Vector3& xi, const Vector3& fractions) const override;
     Vector3 fromUnits(const Vector3& vector) const override;
 
 private:
-
     Vector3 origin_;
     Vector3 span_;
     Eigen::Matrix3d axes_;
@@ -118,37 +98,24 @@ private:
 
 
 // Part of a ring about an axis: radius, angle, height
-class CylindricalFrame
-:
-    public FfdFrame
+class CylindricalFrame : public FfdFrame
 {
 public:
-
     // start, span: radius [m], angle [rad], height [m] of xi = 0 and from there
     // to xi = 1. axes: columns are the directions of angle 0, of angle pi/2 and
     // of the height. Throws std::invalid_argument unless the span is positive,
     // the angle at most 2 pi and the radius not negative
-    CylindricalFrame
-    (
-        const Vector3& origin,
-        const Eigen::Matrix3d& axes,
-        const Vector3& start,
-        const Vector3& span
-    );
+    CylindricalFrame(
+        const Vector3& origin, const Eigen::Matrix3d& axes,
+        const Vector3& start, const Vector3& span);
 
     Vector3 coordinates(const Vector3& x) const override;
     Vector3 position(const Vector3& xi) const override;
     Vector3 displacement(const Vector3& x, const Vector3& d) const override;
-    Eigen::Matrix3d displacementByLattice
-    (
-        const Vector3& x,
-        const Vector3& d
-    ) const override;
-    Eigen::Matrix3d displacementByPosition
-    (
-        const Vector3& x,
-        const Vector3& d
-    ) const override;
+    Eigen::Matrix3d
+    displacementByLattice(const Vector3& x, const Vector3& d) const override;
+    Eigen::Matrix3d
+    displacementByPosition(const Vector3& x, const Vector3& d) const override;
     Eigen::Matrix3d gradient(const Vector3& x) const override;
     Vector3 frameCoordinates(const Vector3& xi) const override;
     Vector3 fromUnits(const Vector3& vector) const override;
@@ -157,7 +124,6 @@ public:
     bool radial() const override { return true; }
 
 private:
-
     // Radius and the direction of it
     struct Polar
     {
@@ -178,12 +144,9 @@ private:
 
 
 // A hexahedron with eight corners anywhere, filled trilinearly
-class HexahedralFrame
-:
-    public FfdFrame
+class HexahedralFrame : public FfdFrame
 {
 public:
-
     // The corners in the order of xi = 000 100 010 110 001 101 011 111. Throws
     // std::invalid_argument unless the map is one to one
     explicit HexahedralFrame(const std::array<Vector3, 8>& corners);
@@ -196,7 +159,6 @@ public:
     Vector3 fromUnits(const Vector3& vector) const override;
 
 private:
-
     std::array<Vector3, 8> corners_;
 
     Vector3 low_;

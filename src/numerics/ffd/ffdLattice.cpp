@@ -31,17 +31,10 @@ struct Shape
 // Sums over the control points that reach each point. Every point by itself,
 // so that its displacement depends on nothing but its own rows
 MORPH_MULTIVERSION
-static void contract
-(
-    const Shape& shape,
-    Index n,
-    const std::int32_t* first,
-    const double* row,
-    const double* scale,
-    const double* control,
-    const unsigned char* lineMoves,
-    double* displacement
-)
+static void contract(
+    const Shape& shape, Index n, const std::int32_t* first, const double* row,
+    const double* scale, const double* control, const unsigned char* lineMoves,
+    double* displacement)
 {
     const Index a = shape.length[0];
     const Index b = shape.length[1];
@@ -56,26 +49,26 @@ static void contract
             for (Index j = 0; j < b; ++j)
             {
                 const Index line =
-                    first[1] + j + shape.extended[1]*(first[2] + k);
+                    first[1] + j + shape.extended[1] * (first[2] + k);
                 if (!lineMoves[line])
                 {
                     continue;
                 }
                 const double* d =
-                    control + 4*(first[0] + shape.extended[0]*line);
+                    control + 4 * (first[0] + shape.extended[0] * line);
                 Four along = {0, 0, 0, 0};
                 for (Index i = 0; i < a; ++i)
                 {
-                    along += row[i]*reinterpret_cast<const Four*>(d)[i];
+                    along += row[i] * reinterpret_cast<const Four*>(d)[i];
                 }
-                plane += row[a + j]*along;
+                plane += row[a + j] * along;
             }
-            sum += row[a + b + k]*plane;
+            sum += row[a + b + k] * plane;
         }
         const double factor = scale ? scale[point] : 1;
         for (int d = 0; d < 3; ++d)
         {
-            displacement[d] = factor*sum[d];
+            displacement[d] = factor * sum[d];
         }
 
         first += 3;
@@ -85,14 +78,10 @@ static void contract
 }
 
 
-FfdLattice::FfdLattice
-(
-    const std::array<BSpline, 3>& basis,
-    const std::vector<double>& weights
-)
-:
-    basis_(basis),
-    weights_(weights)
+FfdLattice::FfdLattice(
+    const std::array<BSpline, 3>& basis, const std::vector<double>& weights)
+: basis_(basis),
+  weights_(weights)
 {
     if (!weights.empty() && Index(weights.size()) != size())
     {
@@ -110,13 +99,13 @@ FfdLattice::FfdLattice
 
 Index FfdLattice::size() const
 {
-    return basis_[0].size()*basis_[1].size()*basis_[2].size();
+    return basis_[0].size() * basis_[1].size() * basis_[2].size();
 }
 
 
 Index FfdLattice::number(Index l, Index m, Index n) const
 {
-    return l + basis_[0].size()*(m + basis_[1].size()*n);
+    return l + basis_[0].size() * (m + basis_[1].size() * n);
 }
 
 
@@ -132,18 +121,16 @@ double FfdLattice::scale(const std::int32_t* first, const double* row) const
         {
             for (Index i = 0; i < a; ++i)
             {
-                const Index control = number
-                (
+                const Index control = number(
                     basis_[0].control(first[0] + i),
                     basis_[1].control(first[1] + j),
-                    basis_[2].control(first[2] + k)
-                );
-                sum += row[i]*row[a + j]*row[a + b + k]
-                   *weights_[std::size_t(control)];
+                    basis_[2].control(first[2] + k));
+                sum += row[i] * row[a + j] * row[a + b + k]
+                    * weights_[std::size_t(control)];
             }
         }
     }
-    return 1/sum;
+    return 1 / sum;
 }
 
 
@@ -156,8 +143,8 @@ LatticeRows FfdLattice::rows(const Vectors& xi) const
     {
         length += basis.degree() + 1;
     }
-    rows.first.resize(std::size_t(3*xi.rows()));
-    rows.values.resize(std::size_t(length*xi.rows()));
+    rows.first.resize(std::size_t(3 * xi.rows()));
+    rows.values.resize(std::size_t(length * xi.rows()));
     rows.scale.resize(rational() ? std::size_t(xi.rows()) : 0);
 
     std::int32_t* first = rows.first.data();
@@ -186,7 +173,7 @@ std::vector<double> FfdLattice::extended(const Vectors& control) const
     const Index a = basis_[0].extendedSize();
     const Index b = basis_[1].extendedSize();
     const Index c = basis_[2].extendedSize();
-    std::vector<double> values(std::size_t(4*a*b*c), 0.0);
+    std::vector<double> values(std::size_t(4 * a * b * c), 0.0);
     double* value = values.data();
     for (Index k = 0; k < c; ++k)
     {
@@ -194,17 +181,14 @@ std::vector<double> FfdLattice::extended(const Vectors& control) const
         {
             for (Index i = 0; i < a; ++i)
             {
-                const Index from = number
-                (
-                    basis_[0].control(i),
-                    basis_[1].control(j),
-                    basis_[2].control(k)
-                );
+                const Index from = number(
+                    basis_[0].control(i), basis_[1].control(j),
+                    basis_[2].control(k));
                 const double weight =
                     rational() ? weights_[std::size_t(from)] : 1;
                 for (int d = 0; d < 3; ++d)
                 {
-                    value[d] = weight*control(from, d);
+                    value[d] = weight * control(from, d);
                 }
                 value += 4;
             }
@@ -214,11 +198,8 @@ std::vector<double> FfdLattice::extended(const Vectors& control) const
 }
 
 
-Vectors FfdLattice::displacement
-(
-    const LatticeRows& rows,
-    const Vectors& control
-) const
+Vectors
+FfdLattice::displacement(const LatticeRows& rows, const Vectors& control) const
 {
     Shape shape;
     for (int d = 0; d < 3; ++d)
@@ -228,7 +209,7 @@ Vectors FfdLattice::displacement
     }
 
     const std::vector<double> values = extended(control);
-    const Index perLine = 4*shape.extended[0];
+    const Index perLine = 4 * shape.extended[0];
     std::vector<unsigned char> lineMoves;
     for (std::size_t i = 0; i < values.size(); i += std::size_t(perLine))
     {
@@ -241,26 +222,16 @@ Vectors FfdLattice::displacement
     }
 
     Vectors displacement(rows.size, 3);
-    contract
-    (
-        shape,
-        rows.size,
-        rows.first.data(),
-        rows.values.data(),
-        rational() ? rows.scale.data() : nullptr,
-        values.data(),
-        lineMoves.data(),
-        displacement.data()
-    );
+    contract(
+        shape, rows.size, rows.first.data(), rows.values.data(),
+        rational() ? rows.scale.data() : nullptr, values.data(),
+        lineMoves.data(), displacement.data());
     return displacement;
 }
 
 
-Vector3 FfdLattice::displacement
-(
-    const Vector3& xi,
-    const Vectors& control
-) const
+Vector3
+FfdLattice::displacement(const Vector3& xi, const Vectors& control) const
 {
     Vectors one(1, 3);
     one.row(0) = xi.transpose();
@@ -268,11 +239,8 @@ Vector3 FfdLattice::displacement
 }
 
 
-Eigen::Matrix3d FfdLattice::gradient
-(
-    const Vector3& xi,
-    const Vectors& control
-) const
+Eigen::Matrix3d
+FfdLattice::gradient(const Vector3& xi, const Vectors& control) const
 {
     std::vector<double> value[3], slope[3];
     Index first[3];
@@ -292,24 +260,20 @@ Eigen::Matrix3d FfdLattice::gradient
         {
             for (std::size_t i = 0; i < value[0].size(); ++i)
             {
-                const Index from = number
-                (
+                const Index from = number(
                     basis_[0].control(first[0] + Index(i)),
                     basis_[1].control(first[1] + Index(j)),
-                    basis_[2].control(first[2] + Index(k))
-                );
+                    basis_[2].control(first[2] + Index(k)));
                 const double weight =
                     rational() ? weights_[std::size_t(from)] : 1;
                 Eigen::Vector4d d;
-                d << weight*control.row(from).transpose(), weight;
-                const Eigen::RowVector4d b
-                (
-                    value[0][i]*value[1][j]*value[2][k],
-                    slope[0][i]*value[1][j]*value[2][k],
-                    value[0][i]*slope[1][j]*value[2][k],
-                    value[0][i]*value[1][j]*slope[2][k]
-                );
-                sums += d*b;
+                d << weight * control.row(from).transpose(), weight;
+                const Eigen::RowVector4d b(
+                    value[0][i] * value[1][j] * value[2][k],
+                    slope[0][i] * value[1][j] * value[2][k],
+                    value[0][i] * slope[1][j] * value[2][k],
+                    value[0][i] * value[1][j] * slope[2][k]);
+                sums += d * b;
             }
         }
     }
@@ -318,9 +282,9 @@ Eigen::Matrix3d FfdLattice::gradient
         return sums.topRightCorner<3, 3>();
     }
     const double weight = sums(3, 0);
-    const Vector3 d = sums.topLeftCorner<3, 1>()/weight;
-    return (sums.topRightCorner<3, 3>() - d*sums.bottomRightCorner<1, 3>())
-       /weight;
+    const Vector3 d = sums.topLeftCorner<3, 1>() / weight;
+    return (sums.topRightCorner<3, 3>() - d * sums.bottomRightCorner<1, 3>())
+        / weight;
 }
 
 } // namespace morph

@@ -42,14 +42,11 @@ struct LatticeRows
 class FfdLattice
 {
 public:
-
     // weights: none, or a positive one for each control point. Throws
     // std::invalid_argument if they are not
-    explicit FfdLattice
-    (
+    explicit FfdLattice(
         const std::array<BSpline, 3>& basis,
-        const std::vector<double>& weights = {}
-    );
+        const std::vector<double>& weights = {});
 
     const BSpline& basis(int direction) const
     {
@@ -78,7 +75,6 @@ public:
     Eigen::Matrix3d gradient(const Vector3& xi, const Vectors& control) const;
 
 private:
-
     // With neighbours over the seam of a periodic direction: four numbers each
     // (three components times weight, and nothing)
     std::vector<double> extended(const Vectors& control) const;

@@ -30,10 +30,9 @@ int mostHalvingsOf(const TensorPolynomial& polynomial)
         cost *= double(n + 1);
         degree = std::max(degree, double(n));
     }
-    return int(std::min
-    (
-        std::max(mostOperations/(cost*degree), 20.0), double(mostHalvings)
-    ));
+    return int(std::min(
+        std::max(mostOperations / (cost * degree), 20.0),
+        double(mostHalvings)));
 }
 
 
@@ -55,17 +54,16 @@ double firstRoot(const std::array<double, 4>& c, double from, double to)
     {
         return from;
     }
-    const double ab = 0.5*(c[0] + c[1]);
-    const double bc = 0.5*(c[1] + c[2]);
-    const double cd = 0.5*(c[2] + c[3]);
-    const double abc = 0.5*(ab + bc);
-    const double bcd = 0.5*(bc + cd);
-    const double middle = 0.5*(abc + bcd);
-    const double half = 0.5*(from + to);
+    const double ab = 0.5 * (c[0] + c[1]);
+    const double bc = 0.5 * (c[1] + c[2]);
+    const double cd = 0.5 * (c[2] + c[3]);
+    const double abc = 0.5 * (ab + bc);
+    const double bcd = 0.5 * (bc + cd);
+    const double middle = 0.5 * (abc + bcd);
+    const double half = 0.5 * (from + to);
     const double first = firstRoot({{c[0], ab, abc, middle}}, from, half);
-    return first < never
-      ? first
-      : firstRoot({{middle, bcd, cd, c[3]}}, half, to);
+    return first < never ? first
+                         : firstRoot({{middle, bcd, cd, c[3]}}, half, to);
 }
 
 
@@ -85,9 +83,9 @@ std::array<TensorPolynomial, 4> cubic(std::array<TensorPolynomial, 4> f)
         value = value.elevated(degrees);
     }
     const TensorPolynomial c1 =
-        (-5.0/6)*f[0] + 3.0*f[1] + (-1.5)*f[2] + (1.0/3)*f[3];
+        (-5.0 / 6) * f[0] + 3.0 * f[1] + (-1.5) * f[2] + (1.0 / 3) * f[3];
     const TensorPolynomial c2 =
-        (1.0/3)*f[0] + (-1.5)*f[1] + 3.0*f[2] + (-5.0/6)*f[3];
+        (1.0 / 3) * f[0] + (-1.5) * f[1] + 3.0 * f[2] + (-5.0 / 6) * f[3];
     return {{f[0], c1, c2, f[3]}};
 }
 
@@ -124,35 +122,29 @@ TensorPolynomial determinantOf(const Columns3& m)
 {
     const auto minor = [&](int i, int j)
     {
-        return m[1][std::size_t(i)]*m[2][std::size_t(j)]
-          + (-1.0)*(m[1][std::size_t(j)]*m[2][std::size_t(i)]);
+        return m[1][std::size_t(i)] * m[2][std::size_t(j)]
+            + (-1.0) * (m[1][std::size_t(j)] * m[2][std::size_t(i)]);
     };
-    return m[0][0]*minor(1, 2) + m[0][1]*minor(2, 0) + m[0][2]*minor(0, 1);
+    return m[0][0] * minor(1, 2) + m[0][1] * minor(2, 0)
+        + m[0][2] * minor(0, 1);
 }
 
 } // namespace
 
 
-FoldCertificate::FoldCertificate
-(
-    const FfdFrame& frame,
-    const FfdLattice& lattice,
-    const Vectors& control
-)
-:
-    frame_(frame),
-    lattice_(lattice),
-    control_(control),
-    where_(Vector3::Constant(0.5))
-{}
+FoldCertificate::FoldCertificate(
+    const FfdFrame& frame, const FfdLattice& lattice, const Vectors& control)
+: frame_(frame),
+  lattice_(lattice),
+  control_(control),
+  where_(Vector3::Constant(0.5))
+{
+}
 
 
-TensorPolynomial FoldCertificate::inSpan
-(
-    const Vectors& control,
-    const std::array<Index, 3>& number,
-    int component
-) const
+TensorPolynomial FoldCertificate::inSpan(
+    const Vectors& control, const std::array<Index, 3>& number,
+    int component) const
 {
     TensorPolynomial::Degrees n;
     std::array<Matrix, 3> extraction;
@@ -172,24 +164,18 @@ TensorPolynomial FoldCertificate::inSpan
         {
             for (Index i = 0; i <= n[0]; ++i)
             {
-                const Index from = lattice_.number
-                (
+                const Index from = lattice_.number(
                     lattice_.basis(0).control(number[0] + i),
                     lattice_.basis(1).control(number[1] + j),
-                    lattice_.basis(2).control(number[2] + k)
-                );
-                const double weight =
-                    lattice_.rational()
-                  ? lattice_.weights()[std::size_t(from)]
-                  : 1;
+                    lattice_.basis(2).control(number[2] + k));
+                const double weight = lattice_.rational()
+                    ? lattice_.weights()[std::size_t(from)]
+                    : 1;
                 plane(i, j) =
-                    component == 3 ? weight : weight*control(from, component);
+                    component == 3 ? weight : weight * control(from, component);
             }
         }
-        planes.push_back
-        (
-            extraction[0].transpose()*plane*extraction[1]
-        );
+        planes.push_back(extraction[0].transpose() * plane * extraction[1]);
     }
 
     std::vector<double> coefficients;
@@ -198,21 +184,17 @@ TensorPolynomial FoldCertificate::inSpan
         Matrix plane = Matrix::Zero(n[0] + 1, n[1] + 1);
         for (Index j = 0; j <= n[2]; ++j)
         {
-            plane += extraction[2](j, k)*planes[std::size_t(j)];
+            plane += extraction[2](j, k) * planes[std::size_t(j)];
         }
-        coefficients.insert
-        (
-            coefficients.end(), plane.data(), plane.data() + plane.size()
-        );
+        coefficients.insert(
+            coefficients.end(), plane.data(), plane.data() + plane.size());
     }
     return TensorPolynomial(n, coefficients);
 }
 
 
-FoldCertificate::Span FoldCertificate::span
-(
-    const std::array<Index, 3>& number
-) const
+FoldCertificate::Span
+FoldCertificate::span(const std::array<Index, 3>& number) const
 {
     Span span;
     for (int d = 0; d < 3; ++d)
@@ -236,10 +218,9 @@ FoldCertificate::Span FoldCertificate::span
     for (int c = 0; c < 3; ++c)
     {
         const std::size_t i = std::size_t(c);
-        span.rest[i] =
-            frame_.controlPoints()
-          ? inSpan(*frame_.controlPoints(), number, c)
-          : TensorPolynomial({{1, 1, 1}}, corners[i]);
+        span.rest[i] = frame_.controlPoints()
+            ? inSpan(*frame_.controlPoints(), number, c)
+            : TensorPolynomial({{1, 1, 1}}, corners[i]);
         span.moved[i] = inSpan(control_, number, c);
         span.moves = span.moves || !span.moved[i].isZero();
     }
@@ -270,11 +251,7 @@ std::vector<FoldCertificate::Span> FoldCertificate::spans() const
 }
 
 
-TensorPolynomial FoldCertificate::expanded
-(
-    const Span& span,
-    double scale
-) const
+TensorPolynomial FoldCertificate::expanded(const Span& span, double scale) const
 {
     // The determinant is linear in each row: those of the box at rest are of low
     // degree, and those of the motion have few coefficients
@@ -289,10 +266,9 @@ TensorPolynomial FoldCertificate::expanded
             zero = zero || (moves && (scale == 0 || span.moved[i].isZero()));
             for (int d = 0; d < 3; ++d)
             {
-                m[i][std::size_t(d)] =
-                    moves
-                  ? scale*span.moved[i].derivative(d)
-                  : span.rest[i].derivative(d);
+                m[i][std::size_t(d)] = moves
+                    ? scale * span.moved[i].derivative(d)
+                    : span.rest[i].derivative(d);
             }
         }
         if (!zero)
@@ -304,11 +280,8 @@ TensorPolynomial FoldCertificate::expanded
 }
 
 
-TensorPolynomial FoldCertificate::determinant
-(
-    const Span& span,
-    double scale
-) const
+TensorPolynomial
+FoldCertificate::determinant(const Span& span, double scale) const
 {
     if (!lattice_.rational())
     {
@@ -321,13 +294,12 @@ TensorPolynomial FoldCertificate::determinant
     {
         for (int d = 0; d < 3; ++d)
         {
-            m[i][std::size_t(d)] =
-                span.weight*span.rest[i].derivative(d)
-              + scale*span.moved[i].derivative(d);
+            m[i][std::size_t(d)] = span.weight * span.rest[i].derivative(d)
+                + scale * span.moved[i].derivative(d);
         }
     }
     // Expanded by the column [W, t N]
-    TensorPolynomial sum = span.weight*determinantOf(m);
+    TensorPolynomial sum = span.weight * determinantOf(m);
     for (std::size_t i = 0; i < 3; ++i)
     {
         Columns3 replaced = m;
@@ -335,7 +307,7 @@ TensorPolynomial FoldCertificate::determinant
         {
             replaced[i][std::size_t(d)] = span.weight.derivative(d);
         }
-        sum += (-scale)*(span.moved[i]*determinantOf(replaced));
+        sum += (-scale) * (span.moved[i] * determinantOf(replaced));
     }
     return sum;
 }
@@ -344,7 +316,7 @@ TensorPolynomial FoldCertificate::determinant
 TensorPolynomial FoldCertificate::radius(const Span& span, double scale) const
 {
     const TensorPolynomial r =
-        span.weight*span.rest[0] + scale*span.moved[0];
+        span.weight * span.rest[0] + scale * span.moved[0];
     if (frame_.frameCoordinates(span.low)[0] > 0)
     {
         return r;
@@ -358,10 +330,8 @@ TensorPolynomial FoldCertificate::radius(const Span& span, double scale) const
         const Index along = Index(i) % (n[0] + 1);
         if (along > 0)
         {
-            coefficients.push_back
-            (
-                r.coefficients()[i]*double(n[0])/double(along)
-            );
+            coefficients.push_back(
+                r.coefficients()[i] * double(n[0]) / double(along));
         }
     }
     n[0] -= 1;
@@ -369,12 +339,8 @@ TensorPolynomial FoldCertificate::radius(const Span& span, double scale) const
 }
 
 
-bool FoldCertificate::positive
-(
-    const TensorPolynomial& polynomial,
-    const Vector3& low,
-    const Vector3& high
-)
+bool FoldCertificate::positive(
+    const TensorPolynomial& polynomial, const Vector3& low, const Vector3& high)
 {
     struct Part
     {
@@ -383,7 +349,7 @@ bool FoldCertificate::positive
         Vector3 high;
     };
 
-    const double zero = roundOff*std::max(polynomial.largest(), 0.0);
+    const double zero = roundOff * std::max(polynomial.largest(), 0.0);
     std::vector<Part> open(1, Part{polynomial, low, high});
     const int most = mostHalvingsOf(polynomial);
     int halvings = 0;
@@ -404,10 +370,10 @@ bool FoldCertificate::positive
             }
         }
         const int d = steepest(part.polynomial);
-        const double middle = 0.5*(part.low[d] + part.high[d]);
+        const double middle = 0.5 * (part.low[d] + part.high[d]);
         if (++halvings > most)
         {
-            where_ = 0.5*(part.low + part.high);
+            where_ = 0.5 * (part.low + part.high);
             return false;
         }
         auto halves = part.polynomial.halves(d);
@@ -426,14 +392,9 @@ bool FoldCertificate::valid(double scale)
 {
     for (const Span& span : spans())
     {
-        if
-        (
-            !positive(determinant(span, scale), span.low, span.high)
-         || (
-                frame_.radial()
-             && !positive(radius(span, scale), span.low, span.high)
-            )
-        )
+        if (!positive(determinant(span, scale), span.low, span.high)
+            || (frame_.radial()
+                && !positive(radius(span, scale), span.low, span.high)))
         {
             return false;
         }
@@ -453,7 +414,7 @@ std::vector<FoldCertificate::Piece> FoldCertificate::pieces() const
         piece.safe = 0;
         for (std::size_t i = 0; i < 4; ++i)
         {
-            piece.inScale[i] = determinant(span, double(i)/3);
+            piece.inScale[i] = determinant(span, double(i) / 3);
         }
         piece.inScale = cubic(piece.inScale);
         pieces.push_back(piece);
@@ -461,7 +422,7 @@ std::vector<FoldCertificate::Piece> FoldCertificate::pieces() const
         {
             for (std::size_t i = 0; i < 4; ++i)
             {
-                piece.inScale[i] = radius(span, double(i)/3);
+                piece.inScale[i] = radius(span, double(i) / 3);
             }
             piece.inScale = cubic(piece.inScale);
             pieces.push_back(piece);
@@ -477,9 +438,7 @@ std::vector<FoldCertificate::Piece> FoldCertificate::pieces() const
 double FoldCertificate::safeScale(double tolerance)
 {
     const auto later = [](const Piece& a, const Piece& b)
-    {
-        return a.safe > b.safe;
-    };
+    { return a.safe > b.safe; };
     std::priority_queue<Piece, std::vector<Piece>, decltype(later)> open(later);
     double reached = never;
 
@@ -520,8 +479,7 @@ double FoldCertificate::safeScale(double tolerance)
     {
         add(std::move(piece));
     }
-    const int most =
-        open.empty() ? 0 : mostHalvingsOf(open.top().inScale[0]);
+    const int most = open.empty() ? 0 : mostHalvingsOf(open.top().inScale[0]);
     for (int halvings = 0; !open.empty() && halvings < most; ++halvings)
     {
         const Piece piece = open.top();
@@ -531,7 +489,7 @@ double FoldCertificate::safeScale(double tolerance)
         }
         open.pop();
         const int d = steepest(piece.inScale[3]);
-        const double middle = 0.5*(piece.low[d] + piece.high[d]);
+        const double middle = 0.5 * (piece.low[d] + piece.high[d]);
         Piece lower(piece);
         Piece upper(piece);
         lower.high[d] = middle;

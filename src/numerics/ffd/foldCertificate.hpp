@@ -26,15 +26,11 @@ namespace morph
 class FoldCertificate
 {
 public:
-
     // control: displacements of the control points in coordinates of the frame.
     // Keeps references to frame and lattice
-    FoldCertificate
-    (
-        const FfdFrame& frame,
-        const FfdLattice& lattice,
-        const Vectors& control
-    );
+    FoldCertificate(
+        const FfdFrame& frame, const FfdLattice& lattice,
+        const Vectors& control);
 
     // Is the determinant positive everywhere at this scale? If not, where() is
     // a place at which it is not (or, within round-off of zero, not certainly)
@@ -48,7 +44,6 @@ public:
     const Vector3& where() const { return where_; }
 
 private:
-
     // A polynomial of third degree in t, by its Bernstein coefficients in t
     // on [0,1], on part of the box
     struct Piece
@@ -81,12 +76,9 @@ private:
 
     // A component of vectors of the control points in a span, times weight; 3
     // is weight
-    TensorPolynomial inSpan
-    (
-        const Vectors& control,
-        const std::array<Index, 3>& number,
-        int component
-    ) const;
+    TensorPolynomial inSpan(
+        const Vectors& control, const std::array<Index, 3>& number,
+        int component) const;
 
     TensorPolynomial expanded(const Span& span, double scale) const;
 
@@ -95,12 +87,9 @@ private:
     TensorPolynomial radius(const Span& span, double scale) const;
 
     // Is it positive everywhere between the two corners?
-    bool positive
-    (
-        const TensorPolynomial& polynomial,
-        const Vector3& low,
-        const Vector3& high
-    );
+    bool positive(
+        const TensorPolynomial& polynomial, const Vector3& low,
+        const Vector3& high);
 
     std::vector<Piece> pieces() const;
 

@@ -36,16 +36,11 @@ Eigen::Matrix3d crossMatrix(const Vector3& n)
 
 // * * * A function along an axis
 
-AxisFunction::AxisFunction
-(
-    const std::vector<double>& at,
-    const std::vector<double>& values,
-    Kind kind
-)
-:
-    at_(at),
-    values_(values),
-    bending_(at.size(), 0.0)
+AxisFunction::AxisFunction(
+    const std::vector<double>& at, const std::vector<double>& values, Kind kind)
+: at_(at),
+  values_(values),
+  bending_(at.size(), 0.0)
 {
     if (at.size() < 2 || values.size() != at.size())
     {
@@ -72,17 +67,17 @@ AxisFunction::AxisFunction
         const std::size_t k = std::size_t(i);
         const double before = at[k + 1] - at[k];
         const double after = at[k + 2] - at[k + 1];
-        A(i, i) = (before + after)/3;
+        A(i, i) = (before + after) / 3;
         if (i > 0)
         {
-            A(i, i - 1) = before/6;
+            A(i, i - 1) = before / 6;
         }
         if (i + 1 < n)
         {
-            A(i, i + 1) = after/6;
+            A(i, i + 1) = after / 6;
         }
-        b[i] = (values[k + 2] - values[k + 1])/after
-          - (values[k + 1] - values[k])/before;
+        b[i] = (values[k + 2] - values[k + 1]) / after
+            - (values[k + 1] - values[k]) / before;
     }
     const Eigen::VectorXd inner = A.partialPivLu().solve(b);
     std::copy(inner.data(), inner.data() + n, bending_.begin() + 1);
@@ -91,10 +86,7 @@ AxisFunction::AxisFunction
 
 Index AxisFunction::interval(double u) const
 {
-    return Index
-    (
-        std::upper_bound(at_.begin(), at_.end(), u) - at_.begin()
-    ) - 1;
+    return Index(std::upper_bound(at_.begin(), at_.end(), u) - at_.begin()) - 1;
 }
 
 
@@ -111,10 +103,11 @@ double AxisFunction::value(double u) const
     }
     const std::size_t i = std::size_t(interval);
     const double h = at_[i + 1] - at_[i];
-    const double b = (u - at_[i])/h;
+    const double b = (u - at_[i]) / h;
     const double a = 1 - b;
-    return a*values_[i] + b*values_[i + 1]
-      + ((a*a*a - a)*bending_[i] + (b*b*b - b)*bending_[i + 1])*h*h/6;
+    return a * values_[i] + b * values_[i + 1]
+        + ((a * a * a - a) * bending_[i] + (b * b * b - b) * bending_[i + 1])
+        * h * h / 6;
 }
 
 
@@ -127,35 +120,28 @@ double AxisFunction::slope(double u) const
     }
     const std::size_t i = std::size_t(interval);
     const double h = at_[i + 1] - at_[i];
-    const double b = (u - at_[i])/h;
+    const double b = (u - at_[i]) / h;
     const double a = 1 - b;
-    return (values_[i + 1] - values_[i])/h
-      + ((1 - 3*a*a)*bending_[i] + (3*b*b - 1)*bending_[i + 1])*h/6;
+    return (values_[i + 1] - values_[i]) / h
+        + ((1 - 3 * a * a) * bending_[i] + (3 * b * b - 1) * bending_[i + 1])
+        * h / 6;
 }
 
 // * * * The axis
 
-SectionAxis::SectionAxis
-(
-    const Vectors& points,
-    AxisFunction::Kind line,
-    const Vector3& normal,
-    const Vector3& chord,
-    const std::vector<Variable>& variables
-)
-:
-    points_(points),
-    line_(line),
-    normal_(normal.normalized()),
-    chord_(chord - chord.dot(normal_)*normal_),
-    variables_(variables)
+SectionAxis::SectionAxis(
+    const Vectors& points, AxisFunction::Kind line, const Vector3& normal,
+    const Vector3& chord, const std::vector<Variable>& variables)
+: points_(points),
+  line_(line),
+  normal_(normal.normalized()),
+  chord_(chord - chord.dot(normal_) * normal_),
+  variables_(variables)
 {
-    if (chord_.norm() < 1e-6*chord.norm() || !(chord.norm() > 0))
+    if (chord_.norm() < 1e-6 * chord.norm() || !(chord.norm() > 0))
     {
-        throw std::invalid_argument
-        (
-            "the chord has the direction of the normal of the sections"
-        );
+        throw std::invalid_argument(
+            "the chord has the direction of the normal of the sections");
     }
     chord_.normalize();
     across_ = normal_.cross(chord_);
@@ -169,17 +155,16 @@ SectionAxis::SectionAxis
     length_ = normal_.dot(points.row(n - 1)) - start_;
     for (Index i = 0; i < n; ++i)
     {
-        fractions_.push_back
-        (
-            length_ > 0 ? (normal_.dot(points.row(i)) - start_)/length_ : 0.0
-        );
-        if (i > 0 && !(fractions_[std::size_t(i)] > fractions_[std::size_t(i - 1)]))
+        fractions_.push_back(
+            length_ > 0 ? (normal_.dot(points.row(i)) - start_) / length_
+                        : 0.0);
+        if (i > 0
+            && !(fractions_[std::size_t(i)] > fractions_[std::size_t(i - 1)]))
         {
-            throw std::invalid_argument
-            (
-                "point " + std::to_string(i) + " of the axis is not further"
-                " along the normal of the sections than the one before"
-            );
+            throw std::invalid_argument(
+                "point " + std::to_string(i)
+                + " of the axis is not further"
+                  " along the normal of the sections than the one before");
         }
     }
     for (Index c = 0; c < 3; ++c)
@@ -191,39 +176,32 @@ SectionAxis::SectionAxis
 
 double SectionAxis::fraction(const Vector3& x) const
 {
-    return (normal_.dot(x) - start_)/length_;
+    return (normal_.dot(x) - start_) / length_;
 }
 
 
 double SectionAxis::rate(const Vector3& velocity) const
 {
-    return normal_.dot(velocity)/length_;
+    return normal_.dot(velocity) / length_;
 }
 
 
 Vector3 SectionAxis::at(double u) const
 {
-    return Vector3
-    (
-        position_[0].value(u), position_[1].value(u), position_[2].value(u)
-    );
+    return Vector3(
+        position_[0].value(u), position_[1].value(u), position_[2].value(u));
 }
 
 
 Vector3 SectionAxis::slope(double u) const
 {
-    return Vector3
-    (
-        position_[0].slope(u), position_[1].slope(u), position_[2].slope(u)
-    );
+    return Vector3(
+        position_[0].slope(u), position_[1].slope(u), position_[2].slope(u));
 }
 
 
-Vectors SectionAxis::along
-(
-    const std::vector<double>& u,
-    const Vectors& points
-) const
+Vectors
+SectionAxis::along(const std::vector<double>& u, const Vectors& points) const
 {
     Vectors result(Index(u.size()), 3);
     for (Index c = 0; c < 3; ++c)
@@ -238,12 +216,8 @@ Vectors SectionAxis::along
 }
 
 
-SectionAxis::Sums SectionAxis::sums
-(
-    double u,
-    const std::vector<double>& values,
-    bool slopes
-) const
+SectionAxis::Sums SectionAxis::sums(
+    double u, const std::vector<double>& values, bool slopes) const
 {
     Sums sums{};
     for (std::size_t i = 0; i < variables_.size(); ++i)
@@ -252,7 +226,7 @@ SectionAxis::Sums SectionAxis::sums
         {
             const AxisFunction& along = variables_[i].along;
             sums[std::size_t(variables_[i].kind)] +=
-                values[i]*(slopes ? along.slope(u) : along.value(u));
+                values[i] * (slopes ? along.slope(u) : along.value(u));
         }
     }
     return sums;
@@ -264,28 +238,25 @@ SectionAxis::Section SectionAxis::of(const Sums& sums) const
     const auto sum = [&](Kind kind) { return sums[std::size_t(kind)]; };
 
     // R - I and S - I, exactly zero where the variables are
-    const double half = std::sin(0.5*sum(Kind::twist));
+    const double half = std::sin(0.5 * sum(Kind::twist));
     const Eigen::Matrix3d K = crossMatrix(normal_);
     const Eigen::Matrix3d turn =
-        std::sin(sum(Kind::twist))*K + 2*half*half*K*K;
+        std::sin(sum(Kind::twist)) * K + 2 * half * half * K * K;
     const double chord = sum(Kind::chord);
-    const double across = chord + (1 + chord)*sum(Kind::thickness);
-    const Eigen::Matrix3d scale =
-        chord*chord_*chord_.transpose() + across*across_*across_.transpose();
+    const double across = chord + (1 + chord) * sum(Kind::thickness);
+    const Eigen::Matrix3d scale = chord * chord_ * chord_.transpose()
+        + across * across_ * across_.transpose();
 
     Section section;
-    section.shift = sum(Kind::sweep)*chord_ + sum(Kind::dihedral)*across_
-      + sum(Kind::span)*normal_;
-    section.change = turn + scale + turn*scale;
+    section.shift = sum(Kind::sweep) * chord_ + sum(Kind::dihedral) * across_
+        + sum(Kind::span) * normal_;
+    section.change = turn + scale + turn * scale;
     return section;
 }
 
 
-SectionAxis::Section SectionAxis::derivative
-(
-    const Sums& sums,
-    const Sums& rates
-) const
+SectionAxis::Section
+SectionAxis::derivative(const Sums& sums, const Sums& rates) const
 {
     const auto sum = [&](Kind kind) { return sums[std::size_t(kind)]; };
     const auto rate = [&](Kind kind) { return rates[std::size_t(kind)]; };
@@ -293,46 +264,38 @@ SectionAxis::Section SectionAxis::derivative
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d K = crossMatrix(normal_);
     const double twist = sum(Kind::twist);
-    const double half = std::sin(0.5*twist);
-    const Eigen::Matrix3d turn = std::sin(twist)*K + 2*half*half*K*K;
+    const double half = std::sin(0.5 * twist);
+    const Eigen::Matrix3d turn = std::sin(twist) * K + 2 * half * half * K * K;
     const Eigen::Matrix3d turning =
-        rate(Kind::twist)*(std::cos(twist)*K + std::sin(twist)*K*K);
+        rate(Kind::twist) * (std::cos(twist) * K + std::sin(twist) * K * K);
 
     const double chord = sum(Kind::chord);
-    const double across = chord + (1 + chord)*sum(Kind::thickness);
-    const double acrossRate =
-        rate(Kind::chord)*(1 + sum(Kind::thickness))
-      + (1 + chord)*rate(Kind::thickness);
-    const Eigen::Matrix3d scale =
-        chord*chord_*chord_.transpose() + across*across_*across_.transpose();
+    const double across = chord + (1 + chord) * sum(Kind::thickness);
+    const double acrossRate = rate(Kind::chord) * (1 + sum(Kind::thickness))
+        + (1 + chord) * rate(Kind::thickness);
+    const Eigen::Matrix3d scale = chord * chord_ * chord_.transpose()
+        + across * across_ * across_.transpose();
     const Eigen::Matrix3d scaling =
-        rate(Kind::chord)*chord_*chord_.transpose()
-      + acrossRate*across_*across_.transpose();
+        rate(Kind::chord) * chord_ * chord_.transpose()
+        + acrossRate * across_ * across_.transpose();
 
     Section section;
-    section.shift = rate(Kind::sweep)*chord_ + rate(Kind::dihedral)*across_
-      + rate(Kind::span)*normal_;
-    section.change = turning*(identity + scale) + (identity + turn)*scaling;
+    section.shift = rate(Kind::sweep) * chord_ + rate(Kind::dihedral) * across_
+        + rate(Kind::span) * normal_;
+    section.change = turning * (identity + scale) + (identity + turn) * scaling;
     return section;
 }
 
 
-SectionAxis::Section SectionAxis::section
-(
-    double u,
-    const std::vector<double>& values
-) const
+SectionAxis::Section
+SectionAxis::section(double u, const std::vector<double>& values) const
 {
     return of(sums(u, values, false));
 }
 
 
-SectionAxis::Section SectionAxis::byVariable
-(
-    double u,
-    const std::vector<double>& values,
-    std::size_t variable
-) const
+SectionAxis::Section SectionAxis::byVariable(
+    double u, const std::vector<double>& values, std::size_t variable) const
 {
     Sums rates{};
     rates[std::size_t(variables_[variable].kind)] =
@@ -341,11 +304,8 @@ SectionAxis::Section SectionAxis::byVariable
 }
 
 
-SectionAxis::Section SectionAxis::byFraction
-(
-    double u,
-    const std::vector<double>& values
-) const
+SectionAxis::Section
+SectionAxis::byFraction(double u, const std::vector<double>& values) const
 {
     return derivative(sums(u, values, false), sums(u, values, true));
 }

@@ -21,7 +21,6 @@ namespace morph
 class AxisFunction
 {
 public:
-
     enum class Kind
     {
         linear,
@@ -31,19 +30,15 @@ public:
     };
 
     // at: ascending, at least two. Throws std::invalid_argument otherwise
-    AxisFunction
-    (
-        const std::vector<double>& at,
-        const std::vector<double>& values,
-        Kind kind
-    );
+    AxisFunction(
+        const std::vector<double>& at, const std::vector<double>& values,
+        Kind kind);
 
     double value(double u) const;
 
     double slope(double u) const;
 
 private:
-
     // The interval u is in, -1 before the first, size() - 1 after the last
     Index interval(double u) const;
 
@@ -69,7 +64,6 @@ private:
 class SectionAxis
 {
 public:
-
     enum class Kind
     {
         twist,
@@ -95,14 +89,9 @@ public:
 
     // points: those of the axis, n x 3. Throws std::invalid_argument unless
     // they advance along the normal, and the chord is across it
-    SectionAxis
-    (
-        const Vectors& points,
-        AxisFunction::Kind line,
-        const Vector3& normal,
-        const Vector3& chord,
-        const std::vector<Variable>& variables
-    );
+    SectionAxis(
+        const Vectors& points, AxisFunction::Kind line, const Vector3& normal,
+        const Vector3& chord, const std::vector<Variable>& variables);
 
     const Vectors& points() const { return points_; }
 
@@ -124,18 +113,14 @@ public:
     Section section(double u, const std::vector<double>& values) const;
 
     // Its derivative by the value of a variable
-    Section byVariable
-    (
-        double u,
-        const std::vector<double>& values,
-        std::size_t variable
-    ) const;
+    Section byVariable(
+        double u, const std::vector<double>& values,
+        std::size_t variable) const;
 
     // Its derivative by u
     Section byFraction(double u, const std::vector<double>& values) const;
 
 private:
-
     // Sums of the variables of each kind
     using Sums = std::array<double, 6>;
 

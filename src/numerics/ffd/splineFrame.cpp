@@ -11,35 +11,32 @@
 namespace morph
 {
 
-SplineFrame::SplineFrame
-(
-    const std::array<BSpline, 3>& basis,
-    const Vectors& controlPoints
-)
-:
-    basis_(basis),
-    controlPoints_(controlPoints),
-    low_(controlPoints.colwise().minCoeff().transpose()),
-    high_(controlPoints.colwise().maxCoeff().transpose()),
-    span_(Eigen::Matrix3d::Zero())
+SplineFrame::SplineFrame(
+    const std::array<BSpline, 3>& basis, const Vectors& controlPoints)
+: basis_(basis),
+  controlPoints_(controlPoints),
+  low_(controlPoints.colwise().minCoeff().transpose()),
+  high_(controlPoints.colwise().maxCoeff().transpose()),
+  span_(Eigen::Matrix3d::Zero())
 {
     std::array<Index, 3> n;
     for (std::size_t d = 0; d < 3; ++d)
     {
         n[d] = basis[d].size();
     }
-    const Index stride[3] = {1, n[0], n[0]*n[1]};
+    const Index stride[3] = {1, n[0], n[0] * n[1]};
     for (int d = 0; d < 3; ++d)
     {
-        const Index lines = controlPoints.rows()/n[std::size_t(d)];
-        const Index last = (n[std::size_t(d)] - 1)*stride[d];
+        const Index lines = controlPoints.rows() / n[std::size_t(d)];
+        const Index last = (n[std::size_t(d)] - 1) * stride[d];
         for (Index i = 0; i < controlPoints.rows(); ++i)
         {
-            if (i/stride[d] % n[std::size_t(d)] == 0)
+            if (i / stride[d] % n[std::size_t(d)] == 0)
             {
                 span_.col(d) +=
                     (controlPoints.row(i + last) - controlPoints.row(i))
-                   .transpose()/double(lines);
+                        .transpose()
+                    / double(lines);
             }
         }
     }
@@ -50,7 +47,7 @@ SplineFrame::SplineFrame
     std::array<Index, 3> pieces;
     for (std::size_t d = 0; d < 3; ++d)
     {
-        pieces[d] = std::min<Index>(std::max<Index>(2*n[d], 4), 24);
+        pieces[d] = std::min<Index>(std::max<Index>(2 * n[d], 4), 24);
     }
     for (Index k = 0; k <= pieces[2]; ++k)
     {
@@ -58,20 +55,16 @@ SplineFrame::SplineFrame
         {
             for (Index i = 0; i <= pieces[0]; ++i)
             {
-                const Vector3 xi
-                (
-                    double(i)/double(pieces[0]),
-                    double(j)/double(pieces[1]),
-                    double(k)/double(pieces[2])
-                );
-                if (!(frameJacobian(xi).determinant() > 1e-9*size))
+                const Vector3 xi(
+                    double(i) / double(pieces[0]),
+                    double(j) / double(pieces[1]),
+                    double(k) / double(pieces[2]));
+                if (!(frameJacobian(xi).determinant() > 1e-9 * size))
                 {
-                    throw std::invalid_argument
-                    (
+                    throw std::invalid_argument(
                         "the control points enclose no box: it is inside out"
                         " or folded somewhere. The first index has to be"
-                        " fastest, and the three directions right-handed"
-                    );
+                        " fastest, and the three directions right-handed");
                 }
                 starts_.push_back(xi);
             }
@@ -85,12 +78,8 @@ SplineFrame::SplineFrame
 }
 
 
-void SplineFrame::evaluate
-(
-    const Vector3& xi,
-    Vector3& position,
-    Eigen::Matrix3d& jacobian
-) const
+void SplineFrame::evaluate(
+    const Vector3& xi, Vector3& position, Eigen::Matrix3d& jacobian) const
 {
     // Room for the highest degrees that lattices have; no allocation per point
     thread_local std::vector<double> rows;
@@ -102,7 +91,7 @@ void SplineFrame::evaluate
     {
         length += std::size_t(basis.degree()) + 1;
     }
-    rows.resize(2*length);
+    rows.resize(2 * length);
     double* next = rows.data();
     for (std::size_t d = 0; d < 3; ++d)
     {
@@ -120,20 +109,20 @@ void SplineFrame::evaluate
         for (Index j = 0; j <= basis_[1].degree(); ++j)
         {
             const Index line = first[0]
-              + basis_[0].size()
-               *(first[1] + j + basis_[1].size()*(first[2] + k));
+                + basis_[0].size()
+                    * (first[1] + j + basis_[1].size() * (first[2] + k));
             Vector3 along = Vector3::Zero();
             Vector3 alongSlope = Vector3::Zero();
             for (Index i = 0; i <= basis_[0].degree(); ++i)
             {
                 const Vector3 P = controlPoints_.row(line + i).transpose();
-                along += value[0][i]*P;
-                alongSlope += slope[0][i]*P;
+                along += value[0][i] * P;
+                alongSlope += slope[0][i] * P;
             }
-            position += value[1][j]*value[2][k]*along;
-            jacobian.col(0) += value[1][j]*value[2][k]*alongSlope;
-            jacobian.col(1) += slope[1][j]*value[2][k]*along;
-            jacobian.col(2) += value[1][j]*slope[2][k]*along;
+            position += value[1][j] * value[2][k] * along;
+            jacobian.col(0) += value[1][j] * value[2][k] * alongSlope;
+            jacobian.col(1) += slope[1][j] * value[2][k] * along;
+            jacobian.col(2) += value[1][j] * slope[2][k] * along;
         }
     }
 
@@ -143,7 +132,7 @@ void SplineFrame::evaluate
         const double beyond = xi[d] - std::min(std::max(xi[d], 0.0), 1.0);
         if (beyond != 0)
         {
-            position += beyond*jacobian.col(d);
+            position += beyond * jacobian.col(d);
         }
     }
 }
@@ -171,18 +160,17 @@ Vector3 SplineFrame::coordinates(const Vector3& x) const
 {
     const Vector3 nowhere =
         Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-    const Vector3 margin = Vector3::Constant(1e-6*(high_ - low_).norm());
-    if
-    (
-        ((x - low_ + margin).array() < 0).any()
-     || ((high_ - x + margin).array() < 0).any()
-    )
+    const Vector3 margin = Vector3::Constant(1e-6 * (high_ - low_).norm());
+    if (((x - low_ + margin).array() < 0).any()
+        || ((high_ - x + margin).array() < 0).any())
     {
         return nowhere;
     }
 
     Index nearest;
-    (startPositions_.rowwise() - x.transpose()).rowwise().squaredNorm()
+    (startPositions_.rowwise() - x.transpose())
+        .rowwise()
+        .squaredNorm()
         .minCoeff(&nearest);
     Vector3 xi = starts_[std::size_t(nearest)];
 
@@ -194,7 +182,7 @@ Vector3 SplineFrame::coordinates(const Vector3& x) const
     double miss = (x - at).norm();
     for (int i = 0; i < 60; ++i)
     {
-        if (!(std::abs(J.determinant()) > 1e-12*size))
+        if (!(std::abs(J.determinant()) > 1e-12 * size))
         {
             return nowhere;
         }
@@ -203,12 +191,12 @@ Vector3 SplineFrame::coordinates(const Vector3& x) const
         // At most a third of the box at once, and shorter until it is nearer
         const double longest = step.cwiseAbs().maxCoeff();
         const bool done = longest < 1e-14;
-        step *= std::min(1.0, 0.3/std::max(longest, 1e-300));
+        step *= std::min(1.0, 0.3 / std::max(longest, 1e-300));
         Vector3 to = xi + step;
         evaluate(to, at, J);
         for (int half = 0; half < 20 && !done; ++half)
         {
-            if ((x - at).norm() <= miss*(1 + 1e-12) + 1e-15*far)
+            if ((x - at).norm() <= miss * (1 + 1e-12) + 1e-15 * far)
             {
                 break;
             }
@@ -223,7 +211,7 @@ Vector3 SplineFrame::coordinates(const Vector3& x) const
             break;
         }
     }
-    return miss < 1e-11*far ? xi : nowhere;
+    return miss < 1e-11 * far ? xi : nowhere;
 }
 
 
@@ -239,13 +227,10 @@ Vector3 SplineFrame::frameCoordinates(const Vector3& xi) const
 }
 
 
-Vector3 SplineFrame::fromFractions
-(
-    const Vector3&,
-    const Vector3& fractions
-) const
+Vector3
+SplineFrame::fromFractions(const Vector3&, const Vector3& fractions) const
 {
-    return span_*fractions;
+    return span_ * fractions;
 }
 
 

@@ -16,20 +16,14 @@ namespace morph
 // that displaces it, so that x + d(xi) is the same sum of the moved control
 // points: the position form of free-form deformation. Where a point is in the
 // box is found by Newton's method.
-class SplineFrame
-:
-    public FfdFrame
+class SplineFrame : public FfdFrame
 {
 public:
-
     // Clamped bases, and as many control points as they have functions, number
     // l + size_s (m + size_t n). Throws std::invalid_argument unless the map
     // is one to one
-    SplineFrame
-    (
-        const std::array<BSpline, 3>& basis,
-        const Vectors& controlPoints
-    );
+    SplineFrame(
+        const std::array<BSpline, 3>& basis, const Vectors& controlPoints);
 
     // Not a number for points beyond the bounds of the control points, between
     // which the box lies
@@ -40,25 +34,17 @@ public:
 
     // In fractions of the mean lengths of the lattice from its first to its
     // last layer
-    Vector3 fromFractions
-    (
-        const Vector3& xi,
-        const Vector3& fractions
-    ) const override;
+    Vector3
+    fromFractions(const Vector3& xi, const Vector3& fractions) const override;
     Vector3 fromUnits(const Vector3& vector) const override;
 
     Eigen::Matrix3d frameJacobian(const Vector3& xi) const override;
     const Vectors* controlPoints() const override { return &controlPoints_; }
 
 private:
-
     // X and dX/dxi, beyond [0,1] linearly onwards
-    void evaluate
-    (
-        const Vector3& xi,
-        Vector3& position,
-        Eigen::Matrix3d& jacobian
-    ) const;
+    void evaluate(
+        const Vector3& xi, Vector3& position, Eigen::Matrix3d& jacobian) const;
 
     std::array<BSpline, 3> basis_;
 

@@ -21,17 +21,14 @@ const double mostOperations = 2e10;
 
 Index count(const TensorPolynomial::Degrees& degrees)
 {
-    return (degrees[0] + 1)*(degrees[1] + 1)*(degrees[2] + 1);
+    return (degrees[0] + 1) * (degrees[1] + 1) * (degrees[2] + 1);
 }
 
 
 // Multiply (or divide) coefficients by the binomials of their functions
-void scaleByBinomials
-(
-    const TensorPolynomial::Degrees& degrees,
-    bool divide,
-    std::vector<double>& coefficients
-)
+void scaleByBinomials(
+    const TensorPolynomial::Degrees& degrees, bool divide,
+    std::vector<double>& coefficients)
 {
     std::array<std::vector<double>, 3> binomials;
     for (std::size_t d = 0; d < 3; ++d)
@@ -48,7 +45,7 @@ void scaleByBinomials
         {
             for (const double x : binomials[0])
             {
-                *c = divide ? *c/(x*y*z) : *c*(x*y*z);
+                *c = divide ? *c / (x * y * z) : *c * (x * y * z);
                 ++c;
             }
         }
@@ -59,21 +56,18 @@ void scaleByBinomials
 
 
 TensorPolynomial::TensorPolynomial(double value)
-:
-    degrees_{{0, 0, 0}},
-    coefficients_(1, value)
-{}
+: degrees_{{0, 0, 0}},
+  coefficients_(1, value)
+{
+}
 
 
-TensorPolynomial::TensorPolynomial
-(
-    const Degrees& degrees,
-    const std::vector<double>& coefficients
-)
-:
-    degrees_(degrees),
-    coefficients_(coefficients)
-{}
+TensorPolynomial::TensorPolynomial(
+    const Degrees& degrees, const std::vector<double>& coefficients)
+: degrees_(degrees),
+  coefficients_(coefficients)
+{
+}
 
 
 double TensorPolynomial::smallest() const
@@ -104,7 +98,7 @@ double TensorPolynomial::operator()(const Vector3& x) const
         {
             for (const double value : row[0])
             {
-                sum += value*y*z*(*c++);
+                sum += value * y * z * (*c++);
             }
         }
     }
@@ -119,7 +113,7 @@ double TensorPolynomial::corner(int number) const
     {
         if (number & (1 << d))
         {
-            i += stride(d)*degrees_[std::size_t(d)];
+            i += stride(d) * degrees_[std::size_t(d)];
         }
     }
     return coefficients_[std::size_t(i)];
@@ -152,14 +146,12 @@ TensorPolynomial TensorPolynomial::derivative(int direction) const
     result.reserve(std::size_t(count(degrees)));
     for (Index i = 0; i < Index(coefficients_.size()); ++i)
     {
-        if ((i/step) % (n + 1) < n)
+        if ((i / step) % (n + 1) < n)
         {
             const std::size_t c = std::size_t(i);
-            result.push_back
-            (
+            result.push_back(
                 double(n)
-               *(coefficients_[c + std::size_t(step)] - coefficients_[c])
-            );
+                * (coefficients_[c + std::size_t(step)] - coefficients_[c]));
         }
     }
     return TensorPolynomial(degrees, result);
@@ -182,10 +174,8 @@ TensorPolynomial TensorPolynomial::elevated(const Degrees& degrees) const
     }
     if (isZero())
     {
-        return TensorPolynomial
-        (
-            reached, std::vector<double>(std::size_t(count(reached)), 0.0)
-        );
+        return TensorPolynomial(
+            reached, std::vector<double>(std::size_t(count(reached)), 0.0));
     }
     TensorPolynomial result(*this);
     for (std::size_t d = 0; d < 3; ++d)
@@ -193,16 +183,14 @@ TensorPolynomial TensorPolynomial::elevated(const Degrees& degrees) const
         Degrees along{{0, 0, 0}};
         along[d] = missing[d];
         const std::vector<double> ones(std::size_t(missing[d] + 1), 1.0);
-        result = result*TensorPolynomial(along, ones);
+        result = result * TensorPolynomial(along, ones);
     }
     return result;
 }
 
 
-std::pair<TensorPolynomial, TensorPolynomial> TensorPolynomial::halves
-(
-    int direction
-) const
+std::pair<TensorPolynomial, TensorPolynomial>
+TensorPolynomial::halves(int direction) const
 {
     const Index n = degrees_[std::size_t(direction)];
     const Index step = stride(direction);
@@ -210,7 +198,7 @@ std::pair<TensorPolynomial, TensorPolynomial> TensorPolynomial::halves
     TensorPolynomial upper(*this);
     for (Index i = 0; i < Index(coefficients_.size()); ++i)
     {
-        if ((i/step) % (n + 1) != 0)
+        if ((i / step) % (n + 1) != 0)
         {
             continue;
         }
@@ -222,9 +210,10 @@ std::pair<TensorPolynomial, TensorPolynomial> TensorPolynomial::halves
         {
             for (Index j = 0; j <= n - round; ++j)
             {
-                above[j*step] = 0.5*(above[j*step] + above[(j + 1)*step]);
+                above[j * step] =
+                    0.5 * (above[j * step] + above[(j + 1) * step]);
             }
-            below[round*step] = above[0];
+            below[round * step] = above[0];
         }
     }
     return {lower, upper};
@@ -238,37 +227,31 @@ double TensorPolynomial::variation(int direction) const
     double largest = 0;
     for (Index i = 0; i < Index(coefficients_.size()); ++i)
     {
-        if ((i/step) % (n + 1) < n)
+        if ((i / step) % (n + 1) < n)
         {
             const std::size_t c = std::size_t(i);
-            largest = std::max
-            (
+            largest = std::max(
                 largest,
-                std::abs
-                (
-                    coefficients_[c + std::size_t(step)] - coefficients_[c]
-                )
-            );
+                std::abs(
+                    coefficients_[c + std::size_t(step)] - coefficients_[c]));
         }
     }
-    return double(n)*largest;
+    return double(n) * largest;
 }
 
 
 bool TensorPolynomial::isZero() const
 {
-    return std::all_of
-    (
+    return std::all_of(
         coefficients_.begin(), coefficients_.end(),
-        [](double c) { return c == 0; }
-    );
+        [](double c) { return c == 0; });
 }
 
 
 Index TensorPolynomial::nonZero() const
 {
     return Index(coefficients_.size())
-      - Index(std::count(coefficients_.begin(), coefficients_.end(), 0.0));
+        - Index(std::count(coefficients_.begin(), coefficients_.end(), 0.0));
 }
 
 
@@ -299,11 +282,8 @@ TensorPolynomial& TensorPolynomial::operator*=(double factor)
 }
 
 
-TensorPolynomial operator*
-(
-    const TensorPolynomial& first,
-    const TensorPolynomial& second
-)
+TensorPolynomial
+operator*(const TensorPolynomial& first, const TensorPolynomial& second)
 {
     // What is zero costs nothing: few points of a large lattice move
     const double some[] = {double(first.nonZero()), double(second.nonZero())};
@@ -311,21 +291,17 @@ TensorPolynomial operator*
     {
         return TensorPolynomial(0);
     }
-    const double costs[] =
-    {
-        some[0]*double(second.coefficients_.size()),
-        some[1]*double(first.coefficients_.size())
-    };
+    const double costs[] = {
+        some[0] * double(second.coefficients_.size()),
+        some[1] * double(first.coefficients_.size())};
     const bool inOrder = costs[0] <= costs[1];
     const TensorPolynomial& a = inOrder ? first : second;
     const TensorPolynomial& b = inOrder ? second : first;
     if (std::min(costs[0], costs[1]) > mostOperations)
     {
-        throw std::length_error
-        (
+        throw std::length_error(
             "so many control points of so high an order move that it would"
-            " take minutes to see whether the lattice folds"
-        );
+            " take minutes to see whether the lattice folds");
     }
 
     // Of coefficients times binomials, a product is a plain convolution
@@ -359,10 +335,10 @@ TensorPolynomial operator*
                     for (Index jb = 0; jb <= b.degrees_[1]; ++jb)
                     {
                         double* const to = product.data() + ia
-                          + (n[0] + 1)*(ja + jb + (n[1] + 1)*(ka + kb));
+                            + (n[0] + 1) * (ja + jb + (n[1] + 1) * (ka + kb));
                         for (Index ib = 0; ib <= b.degrees_[0]; ++ib)
                         {
-                            to[ib] += factor*valueB[ib];
+                            to[ib] += factor * valueB[ib];
                         }
                         valueB += b.degrees_[0] + 1;
                     }

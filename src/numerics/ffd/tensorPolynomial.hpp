@@ -22,18 +22,14 @@ namespace morph
 class TensorPolynomial
 {
 public:
-
     using Degrees = std::array<Index, 3>;
 
     // A constant
     explicit TensorPolynomial(double value = 0);
 
     // Coefficient (i,j,k) is number i + (n_x + 1)(j + (n_y + 1) k)
-    TensorPolynomial
-    (
-        const Degrees& degrees,
-        const std::vector<double>& coefficients
-    );
+    TensorPolynomial(
+        const Degrees& degrees, const std::vector<double>& coefficients);
 
     const Degrees& degrees() const { return degrees_; }
 
@@ -71,14 +67,10 @@ public:
 
     TensorPolynomial& operator*=(double factor);
 
-    friend TensorPolynomial operator*
-    (
-        const TensorPolynomial& a,
-        const TensorPolynomial& b
-    );
+    friend TensorPolynomial
+    operator*(const TensorPolynomial& a, const TensorPolynomial& b);
 
 private:
-
     Index stride(int direction) const;
 
     Degrees degrees_;

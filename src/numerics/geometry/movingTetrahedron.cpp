@@ -14,46 +14,36 @@
 namespace morph
 {
 
-Cubic movingVolume
-(
-    const Vector3& a,
-    const Vector3& b,
-    const Vector3& c,
-    const Vector3& a1,
-    const Vector3& b1,
-    const Vector3& c1
-)
+Cubic movingVolume(
+    const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& a1,
+    const Vector3& b1, const Vector3& c1)
 {
     // The polar form of the determinant, with each edge at t = 0 or 1
     const Vector3 start = a.cross(b);
     const Vector3 mixed = a1.cross(b) + a.cross(b1);
     const Vector3 end = a1.cross(b1);
-    return Cubic
-    {{
-        start.dot(c),
-        (mixed.dot(c) + start.dot(c1))/3,
-        (end.dot(c) + mixed.dot(c1))/3,
-        end.dot(c1)
-    }};
+    return Cubic{
+        {start.dot(c), (mixed.dot(c) + start.dot(c1)) / 3,
+         (end.dot(c) + mixed.dot(c1)) / 3, end.dot(c1)}};
 }
 
 
 double value(const Cubic& p, const double t)
 {
     const double s = 1 - t;
-    const double p01 = s*p[0] + t*p[1];
-    const double p12 = s*p[1] + t*p[2];
-    const double p23 = s*p[2] + t*p[3];
-    return s*(s*p01 + t*p12) + t*(s*p12 + t*p23);
+    const double p01 = s * p[0] + t * p[1];
+    const double p12 = s * p[1] + t * p[2];
+    const double p23 = s * p[2] + t * p[3];
+    return s * (s * p01 + t * p12) + t * (s * p12 + t * p23);
 }
 
 
 bool surelyPositive(const Cubic& p, const double end)
 {
     const double start = 1 - end;
-    const double p01 = start*p[0] + end*p[1];
-    const double p12 = start*p[1] + end*p[2];
-    const double p012 = start*p01 + end*p12;
+    const double p01 = start * p[0] + end * p[1];
+    const double p12 = start * p[1] + end * p[2];
+    const double p012 = start * p01 + end * p12;
     return p[0] > 0 && p01 > 0 && p012 > 0 && value(p, end) > 0;
 }
 
@@ -63,11 +53,10 @@ bool surelyPositive(const Cubic& p, const double end)
 static double inside(const double numerator, const double denominator)
 {
     const bool sameSign = (numerator > 0) == (denominator > 0);
-    return
-        numerator != 0 && sameSign
-     && std::abs(numerator) < std::abs(denominator)
-      ? numerator/denominator
-      : 1;
+    return numerator != 0 && sameSign
+            && std::abs(numerator) < std::abs(denominator)
+        ? numerator / denominator
+        : 1;
 }
 
 
@@ -78,7 +67,7 @@ static std::pair<double, double> extrema(const Cubic& p)
     // a t^2 + 2 b t + c
     const double q0 = p[1] - p[0], q1 = p[2] - p[1], q2 = p[3] - p[2];
     const double a = (q0 - q1) + (q2 - q1), b = q1 - q0, c = q0;
-    const double discriminant = b*b - a*c;
+    const double discriminant = b * b - a * c;
     if (!(discriminant > 0))
     {
         return {1, 1};
@@ -99,10 +88,10 @@ static double bracketed(const Cubic& p, double low, double high)
     for (int i = 0; i < 200; ++i)
     {
         // False position, every third step bisection: it cannot get stuck
-        double t = low + (high - low)*(atLow/(atLow - atHigh));
-        if (i%3 == 2 || !(t > low && t < high))
+        double t = low + (high - low) * (atLow / (atLow - atHigh));
+        if (i % 3 == 2 || !(t > low && t < high))
         {
-            t = low + 0.5*(high - low);
+            t = low + 0.5 * (high - low);
         }
         if (!(t > low && t < high))
         {

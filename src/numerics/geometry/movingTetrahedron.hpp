@@ -31,15 +31,9 @@ constexpr double noRoot = 2;
 // and nothing else, to the last bit.
 // \param a, b, c  edges at t = 0 (b and a from one vertex, c anywhere)
 // \param a1, b1, c1  the same at t = 1
-Cubic movingVolume
-(
-    const Vector3& a,
-    const Vector3& b,
-    const Vector3& c,
-    const Vector3& a1,
-    const Vector3& b1,
-    const Vector3& c1
-);
+Cubic movingVolume(
+    const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& a1,
+    const Vector3& b1, const Vector3& c1);
 
 
 // Do the Bernstein coefficients alone show that the cubic is positive on [0,

@@ -40,59 +40,34 @@ struct SurfacePlace
 };
 
 // The place of the triangles that is nearest to a point. points: n x 3
-SurfacePlace nearestPlace
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vector3& x
-);
+SurfacePlace nearestPlace(
+    const Vectors& points, const Triangles& triangles, const Vector3& x);
 
 // Where the line through x along a direction meets the triangles nearest to x,
 // once with negative and once with positive parameter. False if it does not on
 // both sides
-bool placesOnLine
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vector3& x,
-    const Vector3& direction,
-    SurfacePlace& below,
-    SurfacePlace& above
-);
+bool placesOnLine(
+    const Vectors& points, const Triangles& triangles, const Vector3& x,
+    const Vector3& direction, SurfacePlace& below, SurfacePlace& above);
 
 // |a - b|; at zero the gradient is zero
-ShapeValue distance
-(
-    const Vectors& points,
-    const SurfacePlace& a,
-    const SurfacePlace& b
-);
+ShapeValue
+distance(const Vectors& points, const SurfacePlace& a, const SurfacePlace& b);
 
 // d.x of a place
-ShapeValue component
-(
-    const Vectors& points,
-    const SurfacePlace& place,
-    const Vector3& direction
-);
+ShapeValue component(
+    const Vectors& points, const SurfacePlace& place, const Vector3& direction);
 
 // Sum of the areas of triangles as seen against a direction: those that face it
-ShapeValue projectedArea
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vector3& direction
-);
+ShapeValue projectedArea(
+    const Vectors& points, const Triangles& triangles,
+    const Vector3& direction);
 
 // Area of the part of the surface where normal.(x - origin) <= 0; all of it
 // where the normal is zero
-ShapeValue wettedArea
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vector3& origin,
-    const Vector3& normal
-);
+ShapeValue wettedArea(
+    const Vectors& points, const Triangles& triangles, const Vector3& origin,
+    const Vector3& normal);
 
 // Edges with a triangle on either side: their two points, and the points
 // opposite to them
@@ -109,12 +84,9 @@ ShapeValue bending(const Vectors& points, const std::vector<Hinge>& hinges);
 ShapeValue volume(const Vectors& points, const Triangles& triangles);
 
 // A component of the centroid of what a closed surface encloses
-ShapeValue barycentre
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vector3& direction
-);
+ShapeValue barycentre(
+    const Vectors& points, const Triangles& triangles,
+    const Vector3& direction);
 
 } // namespace morph
 

@@ -36,13 +36,9 @@ struct Sums
     Dual volumeMoment[3];
 };
 
-Sums sumsOf
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vectors& velocities,
-    const Vector3& origin
-)
+Sums sumsOf(
+    const Vectors& points, const Triangles& triangles,
+    const Vectors& velocities, const Vector3& origin)
 {
     Sums sums;
     for (Index t = 0; t < triangles.rows(); ++t)
@@ -53,31 +49,26 @@ Sums sumsOf
             x[i] = points.row(triangles(t, i)).transpose() - origin;
             v[i] = velocities.row(triangles(t, i)).transpose();
         }
-        const Vector3 n = 0.5*(x[1] - x[0]).cross(x[2] - x[0]);
-        const Vector3 dn = 0.5*
-        (
-            (v[1] - v[0]).cross(x[2] - x[0]) + (x[1] - x[0]).cross(v[2] - v[0])
-        );
+        const Vector3 n = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
+        const Vector3 dn = 0.5
+            * ((v[1] - v[0]).cross(x[2] - x[0])
+               + (x[1] - x[0]).cross(v[2] - v[0]));
         const double a = n.norm();
-        const double da = a > 0 ? n.dot(dn)/a : dn.norm();
-        const double V = x[0].dot(n)/3;
-        const double dV = (v[0].dot(n) + x[0].dot(dn))/3;
-        const Vector3 centre = (x[0] + x[1] + x[2])/3;
-        const Vector3 dCentre = (v[0] + v[1] + v[2])/3;
+        const double da = a > 0 ? n.dot(dn) / a : dn.norm();
+        const double V = x[0].dot(n) / 3;
+        const double dV = (v[0].dot(n) + x[0].dot(dn)) / 3;
+        const Vector3 centre = (x[0] + x[1] + x[2]) / 3;
+        const Vector3 dCentre = (v[0] + v[1] + v[2]) / 3;
 
         sums.area.add(a, da);
         sums.volume.add(V, dV);
         for (int c = 0; c < 3; ++c)
         {
             // The centroid of the tetrahedron to the origin is at 3/4
-            sums.areaMoment[c].add
-            (
-                a*centre[c], da*centre[c] + a*dCentre[c]
-            );
-            sums.volumeMoment[c].add
-            (
-                0.75*V*centre[c], 0.75*(dV*centre[c] + V*dCentre[c])
-            );
+            sums.areaMoment[c].add(
+                a * centre[c], da * centre[c] + a * dCentre[c]);
+            sums.volumeMoment[c].add(
+                0.75 * V * centre[c], 0.75 * (dV * centre[c] + V * dCentre[c]));
         }
     }
     return sums;
@@ -85,33 +76,25 @@ Sums sumsOf
 
 double slopeOfQuotient(const Dual& a, const Dual& b)
 {
-    return b.value != 0
-      ? (a.slope - a.value/b.value*b.slope)/b.value
-      : 0;
+    return b.value != 0 ? (a.slope - a.value / b.value * b.slope) / b.value : 0;
 }
 
 // The middle of the points, about which round-off is smallest
 Vector3 middle(const Vectors& points)
 {
-    return points.rows() > 0
-      ? Vector3(points.colwise().mean().transpose())
-      : Vector3(Vector3::Zero());
+    return points.rows() > 0 ? Vector3(points.colwise().mean().transpose())
+                             : Vector3(Vector3::Zero());
 }
 
 } // namespace
 
 
-SurfaceMeasures surfaceMeasures
-(
-    const Vectors& points,
-    const Triangles& triangles
-)
+SurfaceMeasures
+surfaceMeasures(const Vectors& points, const Triangles& triangles)
 {
     const Vector3 origin = middle(points);
-    const Sums sums = sumsOf
-    (
-        points, triangles, Vectors::Zero(points.rows(), 3), origin
-    );
+    const Sums sums =
+        sumsOf(points, triangles, Vectors::Zero(points.rows(), 3), origin);
     SurfaceMeasures m;
     m.area = sums.area.value;
     m.volume = sums.volume.value;
@@ -121,23 +104,20 @@ SurfaceMeasures surfaceMeasures
     {
         if (m.area != 0)
         {
-            m.areaCentroid[c] += sums.areaMoment[c].value/m.area;
+            m.areaCentroid[c] += sums.areaMoment[c].value / m.area;
         }
         if (m.volume != 0)
         {
-            m.volumeCentroid[c] += sums.volumeMoment[c].value/m.volume;
+            m.volumeCentroid[c] += sums.volumeMoment[c].value / m.volume;
         }
     }
     return m;
 }
 
 
-SurfaceMeasures surfaceMeasuresDerivative
-(
-    const Vectors& points,
-    const Triangles& triangles,
-    const Vectors& velocities
-)
+SurfaceMeasures surfaceMeasuresDerivative(
+    const Vectors& points, const Triangles& triangles,
+    const Vectors& velocities)
 {
     const Sums sums = sumsOf(points, triangles, velocities, middle(points));
     SurfaceMeasures m;
@@ -146,7 +126,8 @@ SurfaceMeasures surfaceMeasuresDerivative
     for (int c = 0; c < 3; ++c)
     {
         m.areaCentroid[c] = slopeOfQuotient(sums.areaMoment[c], sums.area);
-        m.volumeCentroid[c] = slopeOfQuotient(sums.volumeMoment[c], sums.volume);
+        m.volumeCentroid[c] =
+            slopeOfQuotient(sums.volumeMoment[c], sums.volume);
     }
     return m;
 }
@@ -159,13 +140,12 @@ bool isClosed(const Triangles& triangles)
     {
         for (int i = 0; i < 3; ++i)
         {
-            ++uses[{triangles(t, i), triangles(t, (i + 1)%3)}];
+            ++uses[{triangles(t, i), triangles(t, (i + 1) % 3)}];
         }
     }
     for (const auto& use : uses)
     {
-        const auto opposite =
-            uses.find({use.first.second, use.first.first});
+        const auto opposite = uses.find({use.first.second, use.first.first});
         if (use.second != 1 || opposite == uses.end())
         {
             return false;

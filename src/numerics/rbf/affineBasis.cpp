@@ -11,16 +11,12 @@ namespace morph
 {
 
 AffineBasis::AffineBasis(const Columns& nodes)
-:
-    nodes_(nodes)
+: nodes_(nodes)
 {
     const Index d = nodes.rows() - 1;
     if (d < 0 || d > 3)
     {
-        throw std::invalid_argument
-        (
-            "an affine basis needs one to four nodes"
-        );
+        throw std::invalid_argument("an affine basis needs one to four nodes");
     }
 
     // With edges e_u = x_u - x_0 (3 x d) = Q R, the coordinates of x are
@@ -32,7 +28,7 @@ AffineBasis::AffineBasis(const Columns& nodes)
         const Matrix edges =
             (nodes.bottomRows(d).rowwise() - nodes.row(0)).transpose();
         const Eigen::HouseholderQR<Matrix> qr(edges);
-        span_ = qr.householderQ()*Matrix::Identity(3, d);
+        span_ = qr.householderQ() * Matrix::Identity(3, d);
         const Matrix inverse =
             edges.completeOrthogonalDecomposition().pseudoInverse();
         gradients_.rightCols(d) = inverse.transpose();
@@ -46,7 +42,7 @@ Matrix AffineBasis::values(const Columns& x) const
     Matrix l(x.rows(), size());
     if (size() > 0)
     {
-        l.noalias() = (x.rowwise() - nodes_.row(0))*gradients_;
+        l.noalias() = (x.rowwise() - nodes_.row(0)) * gradients_;
         l.col(0).array() += 1;
     }
     return l;
@@ -55,14 +51,14 @@ Matrix AffineBasis::values(const Columns& x) const
 
 Eigen::Matrix3d AffineBasis::gradient(const Matrix& v) const
 {
-    return gradients_*v;
+    return gradients_ * v;
 }
 
 
 double AffineBasis::distance(const Vector3& x) const
 {
     Vector3 e = x - nodes_.row(0).transpose();
-    e -= span_*(span_.transpose()*e);
+    e -= span_ * (span_.transpose() * e);
     return e.norm();
 }
 

@@ -19,7 +19,6 @@ namespace morph
 class AffineBasis
 {
 public:
-
     // No polynomial at all
     AffineBasis() = default;
 
@@ -42,7 +41,6 @@ public:
     double distance(const Vector3& x) const;
 
 private:
-
     Columns nodes_;
 
     // Gradients of the Lagrange functions: 3 x r

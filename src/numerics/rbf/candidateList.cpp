@@ -29,10 +29,8 @@ void pack(std::vector<double>& buffer, const Candidate& entry)
     buffer.push_back(p.k);
     buffer.insert(buffer.end(), p.directions.data(), p.directions.data() + 9);
     buffer.insert(buffer.end(), p.value.data(), p.value.data() + 3);
-    buffer.insert
-    (
-        buffer.end(), entry.residual.data(), entry.residual.data() + 3
-    );
+    buffer.insert(
+        buffer.end(), entry.residual.data(), entry.residual.data() + 3);
     buffer.push_back(entry.error);
     buffer.push_back(entry.rank);
     buffer.push_back(double(entry.index));
@@ -58,8 +56,10 @@ Candidate unpack(const double* v)
 class Thinning
 {
 public:
-
-    explicit Thinning(double cell) : cell_(cell) {}
+    explicit Thinning(double cell)
+    : cell_(cell)
+    {
+    }
 
     bool first(const Vector3& x)
     {
@@ -70,13 +70,12 @@ public:
         Key key;
         for (int a = 0; a < 3; ++a)
         {
-            key[a] = std::floor(x[a]/cell_);
+            key[a] = std::floor(x[a] / cell_);
         }
         return taken_.insert(key).second;
     }
 
 private:
-
     using Key = std::array<double, 3>;
 
     struct Hash
@@ -86,7 +85,7 @@ private:
             std::size_t h = 0;
             for (const double k : key)
             {
-                h = 31*h + std::hash<double>()(k);
+                h = 31 * h + std::hash<double>()(k);
             }
             return h;
         }
@@ -97,14 +96,9 @@ private:
 };
 
 // This rank's candidates with the largest errors, of each cell the first
-std::vector<Index> worstFirst
-(
-    const ControlPoints& candidates,
-    const Errors& errors,
-    double least,
-    Index most,
-    double cell
-)
+std::vector<Index> worstFirst(
+    const ControlPoints& candidates, const Errors& errors, double least,
+    Index most, double cell)
 {
     // A heap gives the worst first without sorting all of them. Without cells
     // one knows how many it takes
@@ -125,18 +119,15 @@ std::vector<Index> worstFirst
     const auto better = [&](const Bad& a, const Bad& b)
     {
         return a.error != b.error
-          ? a.error < b.error
-          : before(candidates[b.index].position, candidates[a.index].position);
+            ? a.error < b.error
+            : before(
+                candidates[b.index].position, candidates[a.index].position);
     };
     if (!(cell > 0) && most < Index(heap.size()))
     {
-        std::nth_element
-        (
-            heap.begin(),
-            heap.begin() + most,
-            heap.end(),
-            [&](const Bad& a, const Bad& b) { return better(b, a); }
-        );
+        std::nth_element(
+            heap.begin(), heap.begin() + most, heap.end(),
+            [&](const Bad& a, const Bad& b) { return better(b, a); });
         heap.resize(most);
     }
     std::make_heap(heap.begin(), heap.end(), better);
@@ -158,12 +149,8 @@ std::vector<Index> worstFirst
 
 
 // The first of each cell, at most so many
-std::vector<Candidate> firstOfCells
-(
-    const std::vector<Candidate>& sorted,
-    double cell,
-    Index most
-)
+std::vector<Candidate>
+firstOfCells(const std::vector<Candidate>& sorted, double cell, Index most)
 {
     std::vector<Candidate> list;
     Thinning thinning(cell);
@@ -188,19 +175,15 @@ int binOf(double error, double largest)
     // An error may be zero or so small that the quotient overflows, which
     // OpenFOAM traps
     const double below =
-        error > 0 ? 4*(std::log2(largest) - std::log2(error)) : bins;
+        error > 0 ? 4 * (std::log2(largest) - std::log2(error)) : bins;
     return below > 0 ? int(std::min(below, bins - 1.0)) : 0;
 }
 
 
 // How many candidates of all ranks there are in each bin
-std::vector<double> histogram
-(
-    const Errors& errors,
-    const std::vector<Index>& which,
-    double largest,
-    Communicator& communicator
-)
+std::vector<double> histogram(
+    const Errors& errors, const std::vector<Index>& which, double largest,
+    Communicator& communicator)
 {
     std::vector<double> counts(bins, 0.0);
     for (const Index i : which)
@@ -211,14 +194,9 @@ std::vector<double> histogram
 }
 
 
-void packCandidate
-(
-    std::vector<double>& buffer,
-    const ControlPoints& candidates,
-    const Errors& errors,
-    Index i,
-    int rank
-)
+void packCandidate(
+    std::vector<double>& buffer, const ControlPoints& candidates,
+    const Errors& errors, Index i, int rank)
 {
     const Vector3 residual = errors.residuals.row(i).transpose();
     pack(buffer, {candidates[i], residual, errors.norms[i], rank, i});
@@ -250,13 +228,9 @@ bool Candidate::precedes(const Candidate& a, const Candidate& b)
 }
 
 
-std::vector<Candidate> worstCandidate
-(
-    const ControlPoints& candidates,
-    const Errors& errors,
-    double least,
-    Communicator& communicator
-)
+std::vector<Candidate> worstCandidate(
+    const ControlPoints& candidates, const Errors& errors, double least,
+    Communicator& communicator)
 {
     std::vector<double> mine;
     for (const Index i : worstFirst(candidates, errors, least, 1, 0))
@@ -271,25 +245,16 @@ std::vector<Candidate> worstCandidate
 }
 
 
-std::vector<Candidate> candidateList
-(
-    const ControlPoints& candidates,
-    const Errors& errors,
-    double least,
-    Index length,
-    double cell,
-    double largest,
-    Communicator& communicator,
-    double& outside
-)
+std::vector<Candidate> candidateList(
+    const ControlPoints& candidates, const Errors& errors, double least,
+    Index length, double cell, double largest, Communicator& communicator,
+    double& outside)
 {
     // One more, whose error is the one outside
     const std::vector<Index> bad =
         worstFirst(candidates, errors, least, length + 1, cell);
-    const std::vector<double> counts = histogram
-    (
-        errors, bad, largest, communicator
-    );
+    const std::vector<double> counts =
+        histogram(errors, bad, largest, communicator);
 
     // Of the worst of each rank as many as are in the list for certain, and
     // more while the cells that several ranks share leave it too short: what
@@ -298,7 +263,7 @@ std::vector<Candidate> candidateList
     std::vector<Candidate> offered, list;
     std::size_t sent = 0;
     double all = 0;
-    for (int bin = 0; bin < bins; )
+    for (int bin = 0; bin < bins;)
     {
         const double needed = all + double(length + 1) - double(list.size());
         for (; bin < bins && all < needed; ++bin)
@@ -306,16 +271,12 @@ std::vector<Candidate> candidateList
             all += counts[bin];
         }
         std::vector<double> mine;
-        for
-        (
-          ; sent < bad.size() && binOf(errors.norms[bad[sent]], largest) < bin
-          ; ++sent
-        )
+        for (;
+             sent < bad.size() && binOf(errors.norms[bad[sent]], largest) < bin;
+             ++sent)
         {
-            packCandidate
-            (
-                mine, candidates, errors, bad[sent], communicator.rank()
-            );
+            packCandidate(
+                mine, candidates, errors, bad[sent], communicator.rank());
         }
         unpackAll(communicator.gather(mine), offered);
         std::sort(offered.begin(), offered.end(), Candidate::precedes);
@@ -336,15 +297,12 @@ std::vector<Candidate> candidateList
 }
 
 
-std::vector<Candidate> candidatesAt
-(
-    const ControlPoints& candidates,
-    const std::vector<Vector3>& positions,
-    Communicator& communicator
-)
+std::vector<Candidate> candidatesAt(
+    const ControlPoints& candidates, const std::vector<Vector3>& positions,
+    Communicator& communicator)
 {
-    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)>
-        wanted(before);
+    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)> wanted(
+        before);
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
         wanted.emplace(positions[i], i);
@@ -355,14 +313,10 @@ std::vector<Candidate> candidatesAt
     {
         if (wanted.count(candidates[i].position))
         {
-            pack
-            (
+            pack(
                 mine,
-                {
-                    candidates[i], Vector3::Zero(), 0,
-                    communicator.rank(), Index(i)
-                }
-            );
+                {candidates[i], Vector3::Zero(), 0, communicator.rank(),
+                 Index(i)});
         }
     }
 
@@ -386,8 +340,9 @@ std::vector<Candidate> candidatesAt
         {
             std::ostringstream message;
             message.precision(std::numeric_limits<double>::max_digits10);
-            message << "no control point at (" << x.transpose() << "), or it "
-                "is named twice";
+            message << "no control point at (" << x.transpose()
+                    << "), or it "
+                       "is named twice";
             throw std::invalid_argument(message.str());
         }
     }

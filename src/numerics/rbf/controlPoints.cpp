@@ -23,14 +23,14 @@ constexpr double sameDirection = 1e-6;
 // p that are among those of q
 double contradiction(const ControlPoint& p, const ControlPoint& q)
 {
-    const Vector3 residual = p.residual(q.C()*q.g());
+    const Vector3 residual = p.residual(q.C() * q.g());
     double sum = 0;
     for (int a = 0; a < p.k; ++a)
     {
         const Vector3 n = p.directions.col(a);
-        if ((n - q.C()*(q.C().transpose()*n)).norm() < sameDirection)
+        if ((n - q.C() * (q.C().transpose() * n)).norm() < sameDirection)
         {
-            sum += residual[a]*residual[a];
+            sum += residual[a] * residual[a];
         }
     }
     return std::sqrt(sum);
@@ -48,12 +48,8 @@ ControlPoint ControlPoint::prescribed(const Vector3& x, const Vector3& s)
 }
 
 
-ControlPoint ControlPoint::sliding
-(
-    const Vector3& x,
-    const std::vector<Vector3>& normals,
-    const Vector3& s
-)
+ControlPoint ControlPoint::sliding(
+    const Vector3& x, const std::vector<Vector3>& normals, const Vector3& s)
 {
     ControlPoint p;
     p.position = x;
@@ -66,14 +62,12 @@ ControlPoint ControlPoint::sliding
         Vector3 n = normal.normalized();
         for (int pass = 0; pass < 2; ++pass)
         {
-            n -= p.C()*(p.C().transpose()*n);
+            n -= p.C() * (p.C().transpose() * n);
         }
         if (p.k == 3 || !(n.norm() > sameDirection))
         {
-            throw std::invalid_argument
-            (
-                "the normals of a sliding control point are zero or dependent"
-            );
+            throw std::invalid_argument(
+                "the normals of a sliding control point are zero or dependent");
         }
         p.directions.col(p.k++) = n.normalized();
     }
@@ -86,7 +80,7 @@ ControlPoint ControlPoint::sliding
     {
         return prescribed(x, s);
     }
-    p.value.head(p.k) = p.C().transpose()*s;
+    p.value.head(p.k) = p.C().transpose() * s;
     return p;
 }
 
@@ -102,39 +96,29 @@ Columns positions(const ControlPoints& points)
 }
 
 
-ConflictingControlPoints::ConflictingControlPoints
-(
-    const Vector3& x,
-    double difference
-)
-:
-    std::invalid_argument
-    (
-        [&]
-        {
-            std::ostringstream s;
-            s   << "two control points at (" << x.transpose()
-                << ") are told to go to places " << difference << " apart";
-            return s.str();
-        }()
-    ),
-    position(x),
-    difference(difference)
-{}
+ConflictingControlPoints::ConflictingControlPoints(
+    const Vector3& x, double difference)
+: std::invalid_argument(
+    [&]
+    {
+        std::ostringstream s;
+        s << "two control points at (" << x.transpose()
+          << ") are told to go to places " << difference << " apart";
+        return s.str();
+    }()),
+  position(x),
+  difference(difference)
+{
+}
 
 
-std::vector<Index> withoutDuplicates
-(
-    const ControlPoints& points,
-    double tolerance
-)
+std::vector<Index>
+withoutDuplicates(const ControlPoints& points, double tolerance)
 {
     std::vector<Index> order(points.size());
     std::iota(order.begin(), order.end(), Index(0));
-    std::sort
-    (
-        order.begin(),
-        order.end(),
+    std::sort(
+        order.begin(), order.end(),
         [&](Index a, Index b)
         {
             const ControlPoint& p = points[a];
@@ -144,8 +128,7 @@ std::vector<Index> withoutDuplicates
                 return before(p.position, q.position);
             }
             return p.k != q.k ? p.k > q.k : a < b;
-        }
-    );
+        });
 
     std::vector<Index> kept;
     for (const Index i : order)

@@ -44,12 +44,9 @@ struct ControlPoint
     // given displacement. One normal: a surface. Two: an edge. Normals need not
     // have unit length nor be orthogonal. Three: s is prescribed. Throws
     // std::invalid_argument if there is none or they are dependent.
-    static ControlPoint sliding
-    (
-        const Vector3& x,
-        const std::vector<Vector3>& normals,
-        const Vector3& s = Vector3::Zero()
-    );
+    static ControlPoint sliding(
+        const Vector3& x, const std::vector<Vector3>& normals,
+        const Vector3& s = Vector3::Zero());
 
     // Is s free along some direction?
     bool slides() const { return k < 3; }
@@ -77,9 +74,7 @@ using ControlPoints = std::vector<ControlPoint>;
 Columns positions(const ControlPoints& points);
 
 // Thrown if two control points at one position contradict each other
-struct ConflictingControlPoints
-:
-    std::invalid_argument
+struct ConflictingControlPoints : std::invalid_argument
 {
     ConflictingControlPoints(const Vector3& x, double difference);
 
@@ -92,11 +87,8 @@ struct ConflictingControlPoints
 // and returns their indices in ascending order. Throws ConflictingControlPoints
 // where one that is dropped and the one that is kept prescribe, along a
 // direction they share, displacements further apart than the tolerance [m].
-std::vector<Index> withoutDuplicates
-(
-    const ControlPoints& points,
-    double tolerance
-);
+std::vector<Index>
+withoutDuplicates(const ControlPoints& points, double tolerance);
 
 } // namespace morph
 

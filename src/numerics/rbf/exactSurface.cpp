@@ -25,10 +25,8 @@ constexpr double farthest = 3;
 class PlaceTable
 {
 public:
-
     PlaceTable(const Columns& x, double tolerance)
-    :
-        tolerance_(tolerance)
+    : tolerance_(tolerance)
     {
         for (Index i = 0; i < x.rows(); ++i)
         {
@@ -48,14 +46,9 @@ public:
         const Cell middle = cell(x);
         for (int n = 0; n < 27; ++n)
         {
-            const auto found = cells_.find
-            (
-                {
-                    middle[0] + n%3 - 1,
-                    middle[1] + n/3%3 - 1,
-                    middle[2] + n/9 - 1
-                }
-            );
+            const auto found = cells_.find(
+                {middle[0] + n % 3 - 1, middle[1] + n / 3 % 3 - 1,
+                 middle[2] + n / 9 - 1});
             if (found == cells_.end())
             {
                 continue;
@@ -72,7 +65,6 @@ public:
     }
 
 private:
-
     using Cell = std::array<double, 3>;
 
     // Larger than the tolerance, so that neighbours are enough
@@ -81,7 +73,7 @@ private:
         Cell c;
         for (int a = 0; a < 3; ++a)
         {
-            c[a] = std::floor(x[a]/(4*tolerance_));
+            c[a] = std::floor(x[a] / (4 * tolerance_));
         }
         return c;
     }
@@ -107,7 +99,7 @@ std::vector<Index> ExactSurface::addImages(Columns& centres)
     // An image may be where another centre is, or another map has brought it
     const PlaceTable places(centres, images_.samePlace());
     PlaceTable added(Columns(0, 3), images_.samePlace());
-    const double reach = farthest*radius_;
+    const double reach = farthest * radius_;
     for (const ImageGroup::Replica& r : images_.replicas(centres, reach))
     {
         const Index there = places.find(r.position);
@@ -133,36 +125,25 @@ std::vector<Index> ExactSurface::addImages(Columns& centres)
 }
 
 
-void ExactSurface::start
-(
-    const ControlPoints& controlPoints,
-    Communicator& communicator,
-    const Vectors& points
-)
+void ExactSurface::start(
+    const ControlPoints& controlPoints, Communicator& communicator,
+    const Vectors& points)
 {
     std::vector<double> mine;
     for (const ControlPoint& p : controlPoints)
     {
-        mine.insert
-        (
-            mine.end(), p.position.data(), p.position.data() + 3
-        );
+        mine.insert(mine.end(), p.position.data(), p.position.data() + 3);
     }
     const std::vector<double> all = communicator.gather(mine);
     const auto position = [&all](Index i)
-    {
-        return Vector3(Eigen::Map<const Vector3>(&all[3*i]));
-    };
+    { return Vector3(Eigen::Map<const Vector3>(&all[3 * i])); };
 
     // One order, whichever rank they are from
-    std::vector<Index> order(all.size()/3);
+    std::vector<Index> order(all.size() / 3);
     std::iota(order.begin(), order.end(), Index(0));
-    std::sort
-    (
-        order.begin(),
-        order.end(),
-        [&](Index a, Index b) { return before(position(a), position(b)); }
-    );
+    std::sort(
+        order.begin(), order.end(),
+        [&](Index a, Index b) { return before(position(a), position(b)); });
 
     centre_.resize(order.size());
     Columns centres(order.size(), 3);
@@ -183,33 +164,23 @@ void ExactSurface::start
 }
 
 
-void ExactSurface::add
-(
-    const ControlPoints& controlPoints,
-    const Vectors& residuals,
-    Communicator& communicator,
-    const Vectors& points,
-    Vectors& displacements
-)
+void ExactSurface::add(
+    const ControlPoints& controlPoints, const Vectors& residuals,
+    Communicator& communicator, const Vectors& points, Vectors& displacements)
 {
     if (!correction_)
     {
         start(controlPoints, communicator, points);
     }
-    const std::vector<double> all = communicator.gather
-    (
-        std::vector<double>
-        (
-            residuals.data(), residuals.data() + residuals.size()
-        )
-    );
+    const std::vector<double> all = communicator.gather(std::vector<double>(
+        residuals.data(), residuals.data() + residuals.size()));
 
     // Of several at a place the first by its residual
     Vectors open(nCentres_ + Index(replicas_.size()), 3);
     std::vector<char> there(nCentres_, 0);
     for (std::size_t i = 0; i < centre_.size(); ++i)
     {
-        const Vector3 r = Eigen::Map<const Vector3>(&all[3*i]);
+        const Vector3 r = Eigen::Map<const Vector3>(&all[3 * i]);
         const Index c = centre_[i];
         if (!there[c] || before(r, open.row(c).transpose()))
         {
@@ -221,7 +192,7 @@ void ExactSurface::add
     {
         const ImageGroup::Replica& r = replicas_[i];
         open.row(nCentres_ + i) =
-            open.row(r.of)*images_.maps()[r.map].R.transpose();
+            open.row(r.of) * images_.maps()[r.map].R.transpose();
     }
     correction_->set(open);
     correction_->add(reach_, displacements);

@@ -23,40 +23,28 @@ namespace morph
 class ExactSurface
 {
 public:
-
     // radius: the largest of the hierarchy [m]; images: those that the field
     // has, and with it the correction, with a reach of at least 3 radii
-    explicit ExactSurface
-    (
-        double radius,
-        const ImageGroup& images = ImageGroup()
-    )
-    :
-        radius_(radius),
-        images_(images)
-    {}
+    explicit ExactSurface(
+        double radius, const ImageGroup& images = ImageGroup())
+    : radius_(radius),
+      images_(images)
+    {
+    }
 
     // residuals: C (g - C^T s) at the control points of this rank: n x 3 [m].
     // Adds to the displacements at points what is missing: m x 3 [m] each.
     // Called again, the control points and the points must be the same.
     // Collective.
-    void add
-    (
-        const ControlPoints& controlPoints,
-        const Vectors& residuals,
-        Communicator& communicator,
-        const Vectors& points,
-        Vectors& displacements
-    );
+    void
+    add(const ControlPoints& controlPoints, const Vectors& residuals,
+        Communicator& communicator, const Vectors& points,
+        Vectors& displacements);
 
 private:
-
-    void start
-    (
-        const ControlPoints& controlPoints,
-        Communicator& communicator,
-        const Vectors& points
-    );
+    void start(
+        const ControlPoints& controlPoints, Communicator& communicator,
+        const Vectors& points);
 
     // Images of the centres, appended to them; of each centre its family
     std::vector<Index> addImages(Columns& centres);

@@ -47,21 +47,20 @@ constexpr Index blockOfAll = 256;
 class Stopwatch
 {
 public:
-
     explicit Stopwatch(double& sum)
-    :
-        sum_(sum),
-        start_(std::chrono::steady_clock::now())
-    {}
+    : sum_(sum),
+      start_(std::chrono::steady_clock::now())
+    {
+    }
 
     ~Stopwatch()
     {
-        sum_ += std::chrono::duration<double>
-            (std::chrono::steady_clock::now() - start_).count();
+        sum_ += std::chrono::duration<double>(
+                    std::chrono::steady_clock::now() - start_)
+                    .count();
     }
 
 private:
-
     double& sum_;
     std::chrono::steady_clock::time_point start_;
 };
@@ -80,10 +79,8 @@ double largestValue(const ControlPoints& candidates, Communicator& communicator)
     largest = communicator.max(largest);
     if (!std::isfinite(largest))
     {
-        throw std::invalid_argument
-        (
-            "the position or displacement of a control point is not finite"
-        );
+        throw std::invalid_argument(
+            "the position or displacement of a control point is not finite");
     }
     return largest;
 }
@@ -93,77 +90,49 @@ double largestValue(const ControlPoints& candidates, Communicator& communicator)
 
 const std::vector<std::pair<Algorithm, std::string>>& algorithmNames()
 {
-    static const std::vector<std::pair<Algorithm, std::string>> names
-    {
+    static const std::vector<std::pair<Algorithm, std::string>> names{
         {Algorithm::incremental, "incremental"},
         {Algorithm::schur, "schur"},
-        {Algorithm::standard, "standard"}
-    };
+        {Algorithm::standard, "standard"}};
     return names;
 }
 
 
-GreedySelection::GreedySelection
-(
-    const Kernel& kernel,
-    Polynomial polynomial,
-    const SelectionSettings& settings,
-    const ImageGroup& images
-)
-:
-    kernel_(kernel),
-    polynomial_(polynomial),
-    settings_(settings),
-    images_(images),
-    interpolant_(kernel)
+GreedySelection::GreedySelection(
+    const Kernel& kernel, Polynomial polynomial,
+    const SelectionSettings& settings, const ImageGroup& images)
+: kernel_(kernel),
+  polynomial_(polynomial),
+  settings_(settings),
+  images_(images),
+  interpolant_(kernel)
 {
-    if
-    (
-        !(settings.tolerance >= 0)
-     || settings.maxPoints < 1
-     || settings.pointsPerSweep < 0
-     || !(settings.restartFraction > 0)
-    )
+    if (!(settings.tolerance >= 0) || settings.maxPoints < 1
+        || settings.pointsPerSweep < 0 || !(settings.restartFraction > 0))
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "selection needs a tolerance >= 0, at least one point, and a "
-            "positive restart fraction"
-        );
+            "positive restart fraction");
     }
     if (kernel.order() > 0 && polynomial == Polynomial::none)
     {
-        throw std::invalid_argument
-        (
-            "a conditionally definite kernel needs a linear polynomial"
-        );
+        throw std::invalid_argument(
+            "a conditionally definite kernel needs a linear polynomial");
     }
-    if
-    (
-        settings.algorithm != Algorithm::incremental
-     && (polynomial != Polynomial::none || settings.all)
-    )
+    if (settings.algorithm != Algorithm::incremental
+        && (polynomial != Polynomial::none || settings.all))
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "algorithms schur and standard know no polynomial and no selection "
-            "of all points; algorithm incremental does"
-        );
+            "of all points; algorithm incremental does");
     }
-    if
-    (
-        !images.trivial()
-     && (
-            settings.algorithm != Algorithm::incremental
-         || polynomial != Polynomial::none
-        )
-    )
+    if (!images.trivial()
+        && (settings.algorithm != Algorithm::incremental
+            || polynomial != Polynomial::none))
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "images of control points need algorithm incremental and no "
-            "polynomial"
-        );
+            "polynomial");
     }
 }
 
@@ -174,8 +143,7 @@ Vectors GreedySelection::residuals(const ControlPoints& candidates) const
     for (std::size_t i = 0; i < candidates.size(); ++i)
     {
         const ControlPoint& p = candidates[i];
-        r.row(i) =
-            errors_.residuals.row(i).head(p.k)*p.C().transpose();
+        r.row(i) = errors_.residuals.row(i).head(p.k) * p.C().transpose();
     }
     return r;
 }
@@ -183,8 +151,8 @@ Vectors GreedySelection::residuals(const ControlPoints& candidates) const
 
 Vectors GreedySelection::weights(const ControlPoints& candidates) const
 {
-    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)>
-        rowOf(before);
+    std::map<Vector3, Index, bool (*)(const Vector3&, const Vector3&)> rowOf(
+        before);
     for (Index j = 0; j < interpolant_.centres().rows(); ++j)
     {
         rowOf.emplace(interpolant_.centres().row(j).transpose(), j);
@@ -219,12 +187,9 @@ std::vector<Vector3> GreedySelection::selectedPositions() const
 }
 
 
-void GreedySelection::restore
-(
-    const std::vector<Vector3>& positions,
-    const ControlPoints& candidates,
-    Communicator& communicator
-)
+void GreedySelection::restore(
+    const std::vector<Vector3>& positions, const ControlPoints& candidates,
+    Communicator& communicator)
 {
     largestValue(candidates, communicator);
     std::vector<Candidate> points =
@@ -234,47 +199,36 @@ void GreedySelection::restore
     start(candidates, communicator);
     const auto isNode = [this](const Candidate& entry)
     {
-        return std::find
-        (
-            positions_.begin(), positions_.end(), entry.point.position
-        ) != positions_.end();
+        return std::find(
+                   positions_.begin(), positions_.end(), entry.point.position)
+            != positions_.end();
     };
     const Index nNodes = positions_.size();
     if (nNodes > 0)
     {
-        points.erase
-        (
-            std::remove_if(points.begin(), points.end(), isNode), points.end()
-        );
+        points.erase(
+            std::remove_if(points.begin(), points.end(), isNode), points.end());
     }
 
     // Prescribed points first: then nothing is ever factorised anew
-    std::stable_partition
-    (
-        points.begin(),
-        points.end(),
-        [](const Candidate& entry) { return !entry.point.slides(); }
-    );
+    std::stable_partition(
+        points.begin(), points.end(),
+        [](const Candidate& entry) { return !entry.point.slides(); });
     appendBlocks(points, communicator.rank());
     system_->solve(interpolant_);
 }
 
 
-void GreedySelection::appendBlocks
-(
-    const std::vector<Candidate>& points,
-    int rank
-)
+void GreedySelection::appendBlocks(
+    const std::vector<Candidate>& points, int rank)
 {
     const std::size_t block =
         settings_.algorithm == Algorithm::incremental ? blockOfAll : 1;
     for (std::size_t i = 0; i < points.size(); i += block)
     {
-        const std::vector<Candidate> list
-        (
+        const std::vector<Candidate> list(
             points.begin() + i,
-            points.begin() + std::min(points.size(), i + block)
-        );
+            points.begin() + std::min(points.size(), i + block));
         std::vector<Index> all(list.size());
         std::iota(all.begin(), all.end(), Index(0));
         const std::vector<bool> in = system_->append(list, all);
@@ -295,24 +249,17 @@ void GreedySelection::appendBlocks
 }
 
 
-SelectionResult GreedySelection::select
-(
-    const ControlPoints& candidates,
-    Communicator& communicator,
-    const Observer& observer
-)
+SelectionResult GreedySelection::select(
+    const ControlPoints& candidates, Communicator& communicator,
+    const Observer& observer)
 {
     return run(candidates, communicator, Sweep(), observer);
 }
 
 
-SelectionResult GreedySelection::select
-(
-    ControlPoints& candidates,
-    Communicator& communicator,
-    const Renewal& renewal,
-    const Observer& observer
-)
+SelectionResult GreedySelection::select(
+    ControlPoints& candidates, Communicator& communicator,
+    const Renewal& renewal, const Observer& observer)
 {
     if (!renewal)
     {
@@ -323,17 +270,13 @@ SelectionResult GreedySelection::select
 }
 
 
-SelectionResult GreedySelection::run
-(
-    const ControlPoints& candidates,
-    Communicator& communicator,
-    const Sweep& renew,
-    const Observer& observer
-)
+SelectionResult GreedySelection::run(
+    const ControlPoints& candidates, Communicator& communicator,
+    const Sweep& renew, const Observer& observer)
 {
     SelectionResult result;
     result.largestDisplacement = largestValue(candidates, communicator);
-    result.tolerance = settings_.tolerance*result.largestDisplacement;
+    result.tolerance = settings_.tolerance * result.largestDisplacement;
 
     {
         Stopwatch time(result.solveTime);
@@ -367,13 +310,11 @@ SelectionResult GreedySelection::run
             summarise(candidates, communicator, result);
             observer(result);
         }
-    }
-    while
-    (
-        (settles = settles && approach(candidates, communicator, history, result))
-     || addPoints(candidates, communicator, renewed, result)
-     || (renewed && approach(candidates, communicator, history, result))
-    );
+    } while (
+        (settles =
+             settles && approach(candidates, communicator, history, result))
+        || addPoints(candidates, communicator, renewed, result)
+        || (renewed && approach(candidates, communicator, history, result)));
 
     result.added = Index(origins_.size()) - before;
     summarise(candidates, communicator, result);
@@ -381,13 +322,9 @@ SelectionResult GreedySelection::run
 }
 
 
-bool GreedySelection::addPoints
-(
-    const ControlPoints& candidates,
-    Communicator& communicator,
-    bool renewed,
-    SelectionResult& result
-)
+bool GreedySelection::addPoints(
+    const ControlPoints& candidates, Communicator& communicator, bool renewed,
+    SelectionResult& result)
 {
     const double least = settings_.all ? -1 : result.tolerance;
     std::vector<Candidate> list;
@@ -404,22 +341,14 @@ bool GreedySelection::addPoints
         const Index most = std::min(room, pointsPerSweep());
         if (most > 1)
         {
-            list = candidateList
-            (
-                candidates,
-                errors_,
-                least,
-                settings_.all ? most : listFactor*most,
-                settings_.all ? 0 : cellSize(list.front()),
-                list.front().error,
-                communicator,
-                outside
-            );
+            list = candidateList(
+                candidates, errors_, least,
+                settings_.all ? most : listFactor * most,
+                settings_.all ? 0 : cellSize(list.front()), list.front().error,
+                communicator, outside);
         }
-        choice = system_->choose
-        (
-            list, most, least, settings_.all ? least : outside
-        );
+        choice =
+            system_->choose(list, most, least, settings_.all ? least : outside);
     }
 
     Stopwatch time(result.solveTime);
@@ -431,9 +360,8 @@ bool GreedySelection::addPoints
     for (std::size_t i = 0; i < choice.taken.size(); ++i)
     {
         const Candidate& entry = list[choice.taken[i]];
-        in[i]
-      ? take(entry, communicator.rank())
-      : reject(entry, communicator.rank());
+        in[i] ? take(entry, communicator.rank())
+              : reject(entry, communicator.rank());
     }
     if (renewed)
     {
@@ -444,13 +372,9 @@ bool GreedySelection::addPoints
 }
 
 
-bool GreedySelection::approach
-(
-    const ControlPoints& candidates,
-    Communicator& communicator,
-    std::vector<double>& history,
-    SelectionResult& result
-)
+bool GreedySelection::approach(
+    const ControlPoints& candidates, Communicator& communicator,
+    std::vector<double>& history, SelectionResult& result)
 {
     double largest = 0;
     for (std::size_t i = 0; i < mine_.size(); ++i)
@@ -463,8 +387,9 @@ bool GreedySelection::approach
     largest = communicator.max(largest);
     history.push_back(largest);
     const std::size_t n = history.size();
-    const bool stalls = n > patience && largest > 0.5*history[n - 1 - patience];
-    if (largest <= settled*result.tolerance || stalls)
+    const bool stalls =
+        n > patience && largest > 0.5 * history[n - 1 - patience];
+    if (largest <= settled * result.tolerance || stalls)
     {
         return false;
     }
@@ -477,11 +402,8 @@ bool GreedySelection::approach
 }
 
 
-void GreedySelection::start
-(
-    const ControlPoints& candidates,
-    Communicator& communicator
-)
+void GreedySelection::start(
+    const ControlPoints& candidates, Communicator& communicator)
 {
     origins_.clear();
     positions_.clear();
@@ -504,44 +426,34 @@ void GreedySelection::start
 }
 
 
-void GreedySelection::makeSystem
-(
-    const ControlPoints& candidates,
-    Communicator& communicator
-)
+void GreedySelection::makeSystem(
+    const ControlPoints& candidates, Communicator& communicator)
 {
     switch (settings_.algorithm)
     {
-        case Algorithm::standard:
-            system_.reset(new StandardSystem(kernel_));
-            return;
+    case Algorithm::standard:
+        system_.reset(new StandardSystem(kernel_));
+        return;
 
-        case Algorithm::schur:
-            system_.reset
-            (
-                new SchurSystem
-                (
-                    kernel_, settings_.restartFraction, candidates, communicator
-                )
-            );
-            return;
+    case Algorithm::schur:
+        system_.reset(new SchurSystem(
+            kernel_, settings_.restartFraction, candidates, communicator));
+        return;
 
-        case Algorithm::incremental:
-            break;
+    case Algorithm::incremental:
+        break;
     }
 
     if (settings_.all)
     {
         // Every rank has the whole factor
         const double n = communicator.sum({double(candidates.size())})[0];
-        const double rows = images_.trivial() ? n : 3*n;
-        requireMemory
-        (
-            8*rows*rows,
+        const double rows = images_.trivial() ? n : 3 * n;
+        requireMemory(
+            8 * rows * rows,
             "the system of all " + std::to_string(Index(n))
-          + " control points, by 'selection all',",
-            communicator
-        );
+                + " control points, by 'selection all',",
+            communicator);
     }
 
     if (!images_.trivial())
@@ -553,10 +465,8 @@ void GreedySelection::makeSystem
     std::vector<Candidate> nodes;
     if (polynomial_ == Polynomial::linear)
     {
-        nodes = polynomialNodes
-        (
-            kernel_, candidates, settings_.maxPoints, communicator
-        );
+        nodes = polynomialNodes(
+            kernel_, candidates, settings_.maxPoints, communicator);
     }
     Matrix values(nodes.size(), 3);
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -568,25 +478,22 @@ void GreedySelection::makeSystem
 }
 
 
-void GreedySelection::refreshValues
-(
-    const ControlPoints& candidates,
-    Communicator& communicator
-)
+void GreedySelection::refreshValues(
+    const ControlPoints& candidates, Communicator& communicator)
 {
-    std::vector<double> v(3*origins_.size(), 0.0);
+    std::vector<double> v(3 * origins_.size(), 0.0);
     for (std::size_t i = 0; i < origins_.size(); ++i)
     {
         if (origins_[i].rank == communicator.rank())
         {
             const Vector3& value = candidates[origins_[i].index].value;
-            std::copy(value.data(), value.data() + 3, &v[3*i]);
+            std::copy(value.data(), value.data() + 3, &v[3 * i]);
         }
     }
     v = communicator.sum(v);
     for (std::size_t i = 0; i < origins_.size(); ++i)
     {
-        values_[i] = Eigen::Map<const Vector3>(&v[3*i]);
+        values_[i] = Eigen::Map<const Vector3>(&v[3 * i]);
     }
 
     system_->setValues(values_);
@@ -627,7 +534,7 @@ Index GreedySelection::pointsPerSweep() const
     // A tenth of the points selected so far; less for many points, since the
     // work on a list grows with its square and would exceed that of a sweep
     const Index n = origins_.size();
-    return std::max<Index>(4, std::min(n/10, 25 + n/20));
+    return std::max<Index>(4, std::min(n / 10, 25 + n / 20));
 }
 
 
@@ -637,13 +544,12 @@ double GreedySelection::cellSize(const Candidate& worst) const
     const Columns& x = interpolant_.centres();
     if (x.rows() > 0)
     {
-        nearest = std::sqrt
-        (
-            (x.rowwise() - worst.point.position.transpose())
-           .rowwise().squaredNorm().minCoeff()
-        );
+        nearest = std::sqrt((x.rowwise() - worst.point.position.transpose())
+                                .rowwise()
+                                .squaredNorm()
+                                .minCoeff());
     }
-    return cellFraction*nearest;
+    return cellFraction * nearest;
 }
 
 
@@ -670,12 +576,9 @@ void GreedySelection::reject(const Candidate& entry, int rank)
 }
 
 
-void GreedySelection::summarise
-(
-    const ControlPoints& candidates,
-    Communicator& communicator,
-    SelectionResult& result
-) const
+void GreedySelection::summarise(
+    const ControlPoints& candidates, Communicator& communicator,
+    SelectionResult& result) const
 {
     double largest = 0;
     for (const double error : errors_.norms)
@@ -683,13 +586,11 @@ void GreedySelection::summarise
         largest = std::max(largest, error);
     }
     result.largestError = communicator.max(largest);
-    result.candidates =
-        Index(communicator.sum({double(candidates.size())})[0]);
+    result.candidates = Index(communicator.sum({double(candidates.size())})[0]);
     result.selected = origins_.size();
     result.rejected = rejected_;
-    result.roundOff =
-        std::numeric_limits<double>::epsilon()
-       *interpolant_.weights().rowwise().norm().sum();
+    result.roundOff = std::numeric_limits<double>::epsilon()
+        * interpolant_.weights().rowwise().norm().sum();
 }
 
 } // namespace morph

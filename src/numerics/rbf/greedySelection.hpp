@@ -105,7 +105,6 @@ struct SelectionResult
 class GreedySelection
 {
 public:
-
     // Called after every sweep with the result so far
     using Observer = std::function<void(const SelectionResult&)>;
 
@@ -117,13 +116,10 @@ public:
     // images: of the control points, which have to be restricted to what the
     // group allows; for algorithm incremental without a polynomial alone.
     // Throws std::invalid_argument for settings that contradict each other
-    GreedySelection
-    (
-        const Kernel& kernel,
-        Polynomial polynomial,
+    GreedySelection(
+        const Kernel& kernel, Polynomial polynomial,
         const SelectionSettings& settings,
-        const ImageGroup& images = ImageGroup()
-    );
+        const ImageGroup& images = ImageGroup());
 
     // Selects until every candidate, at whose position the interpolant should
     // meet C^T s = g, does so within the tolerance.
@@ -137,12 +133,9 @@ public:
     // does not suffice; on all ranks alike.
     //
     // An observer must be given on all ranks or on none.
-    SelectionResult select
-    (
-        const ControlPoints& candidates,
-        Communicator& communicator,
-        const Observer& observer = Observer()
-    );
+    SelectionResult select(
+        const ControlPoints& candidates, Communicator& communicator,
+        const Observer& observer = Observer());
 
     // The same for values that depend on the displacement: ends when, with the
     // values renewed after every sweep, no error of any candidate, selected or
@@ -150,13 +143,9 @@ public:
     // tolerance is of the values that the candidates have at the start.
     //
     // The renewal must be given on all ranks or on none
-    SelectionResult select
-    (
-        ControlPoints& candidates,
-        Communicator& communicator,
-        const Renewal& renewal,
-        const Observer& observer = Observer()
-    );
+    SelectionResult select(
+        ControlPoints& candidates, Communicator& communicator,
+        const Renewal& renewal, const Observer& observer = Observer());
 
     // Positions of the selected points in the order of the system, the same on
     // every rank
@@ -171,12 +160,9 @@ public:
     //
     // Throws as select() does, and std::invalid_argument where there is no
     // candidate at a position; on all ranks alike. Collective.
-    void restore
-    (
-        const std::vector<Vector3>& positions,
-        const ControlPoints& candidates,
-        Communicator& communicator
-    );
+    void restore(
+        const std::vector<Vector3>& positions, const ControlPoints& candidates,
+        Communicator& communicator);
 
     // The outcome of the last selection
     const RbfInterpolant& interpolant() const { return interpolant_; }
@@ -195,7 +181,6 @@ public:
     std::vector<Index> selected() const;
 
 private:
-
     // Where a selected point lives
     struct Origin
     {
@@ -206,42 +191,27 @@ private:
     // Called between the displacements of a sweep and its errors
     using Sweep = std::function<void(const Vectors&)>;
 
-    SelectionResult run
-    (
-        const ControlPoints& candidates,
-        Communicator& communicator,
-        const Sweep& renew,
-        const Observer& observer
-    );
+    SelectionResult
+    run(const ControlPoints& candidates, Communicator& communicator,
+        const Sweep& renew, const Observer& observer);
     void start(const ControlPoints& candidates, Communicator& communicator);
     void makeSystem(const ControlPoints& candidates, Communicator& c);
     void refreshValues(const ControlPoints& candidates, Communicator& c);
     void sweep(const ControlPoints& candidates, const Sweep& renew);
     void appendBlocks(const std::vector<Candidate>& points, int rank);
-    bool addPoints
-    (
-        const ControlPoints& candidates,
-        Communicator& communicator,
-        bool renewed,
-        SelectionResult& result
-    );
-    bool approach
-    (
-        const ControlPoints& candidates,
-        Communicator& communicator,
-        std::vector<double>& history,
-        SelectionResult& result
-    );
+    bool addPoints(
+        const ControlPoints& candidates, Communicator& communicator,
+        bool renewed, SelectionResult& result);
+    bool approach(
+        const ControlPoints& candidates, Communicator& communicator,
+        std::vector<double>& history, SelectionResult& result);
     Index pointsPerSweep() const;
     double cellSize(const Candidate& worst) const;
     void take(const Candidate& entry, int rank);
     void reject(const Candidate& entry, int rank);
-    void summarise
-    (
-        const ControlPoints& candidates,
-        Communicator& communicator,
-        SelectionResult& result
-    ) const;
+    void summarise(
+        const ControlPoints& candidates, Communicator& communicator,
+        SelectionResult& result) const;
 
     Kernel kernel_;
     Polynomial polynomial_;

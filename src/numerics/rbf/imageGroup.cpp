@@ -28,17 +28,19 @@ constexpr double noDirection = 1e-6;
 // The box around the image of a box
 Box boxOf(const RigidMap& map, const Box& box)
 {
-    const Vector3 middle = 0.5*(box.low + box.high);
+    const Vector3 middle = 0.5 * (box.low + box.high);
     const Vector3 centre = map(middle);
-    const Vector3 half = map.R.cwiseAbs()*(0.5*(box.high - box.low));
+    const Vector3 half = map.R.cwiseAbs() * (0.5 * (box.high - box.low));
     return {centre - half, centre + half};
 }
 
 
 double distance(const Box& a, const Box& b)
 {
-    return (a.low - b.high).cwiseMax(b.low - a.high)
-        .cwiseMax(Vector3::Zero()).norm();
+    return (a.low - b.high)
+        .cwiseMax(b.low - a.high)
+        .cwiseMax(Vector3::Zero())
+        .norm();
 }
 
 } // namespace
@@ -46,7 +48,7 @@ double distance(const Box& a, const Box& b)
 
 Columns RigidMap::operator()(const Columns& x) const
 {
-    return (x*R.transpose()).rowwise() + t.transpose();
+    return (x * R.transpose()).rowwise() + t.transpose();
 }
 
 
@@ -54,7 +56,7 @@ RigidMap RigidMap::inverse() const
 {
     RigidMap map;
     map.R = R.transpose();
-    map.t = -(R.transpose()*t);
+    map.t = -(R.transpose() * t);
     return map;
 }
 
@@ -62,8 +64,8 @@ RigidMap RigidMap::inverse() const
 RigidMap RigidMap::after(const RigidMap& other) const
 {
     RigidMap map;
-    map.R = R*other.R;
-    map.t = R*other.t + t;
+    map.R = R * other.R;
+    map.t = R * other.t + t;
     return map;
 }
 
@@ -71,8 +73,8 @@ RigidMap RigidMap::after(const RigidMap& other) const
 RigidMap RigidMap::reflection(const Vector3& point, const Vector3& normal)
 {
     RigidMap map;
-    map.R -= 2*normal*normal.transpose();
-    map.t = 2*normal.dot(point)*normal;
+    map.R -= 2 * normal * normal.transpose();
+    map.t = 2 * normal.dot(point) * normal;
     return map;
 }
 
@@ -85,48 +87,37 @@ RigidMap RigidMap::translation(const Vector3& t)
 }
 
 
-RigidMap RigidMap::rotation
-(
-    const Vector3& point,
-    const Vector3& axis,
-    double angle
-)
+RigidMap
+RigidMap::rotation(const Vector3& point, const Vector3& axis, double angle)
 {
     RigidMap map;
     map.R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-    map.t = point - map.R*point;
+    map.t = point - map.R * point;
     return map;
 }
 
 
 TooManyImages::TooManyImages(Index most)
-:
-    std::length_error
-    (
-        "more than " + std::to_string(most) + " images are within reach"
-    ),
-    most(most)
-{}
+: std::length_error(
+    "more than " + std::to_string(most) + " images are within reach"),
+  most(most)
+{
+}
 
 
 ImageGroup::ImageGroup()
-:
-    maps_(1)
-{}
+: maps_(1)
+{
+}
 
 
-ImageGroup::ImageGroup
-(
-    const std::vector<RigidMap>& generators,
-    const Box& box,
-    double reach,
-    Index most
-)
-:
-    maps_(1),
-    box_(box),
-    reach_(reach),
-    samePlace_(samePlaceFraction*box.diameter())
+ImageGroup::ImageGroup(
+    const std::vector<RigidMap>& generators, const Box& box, double reach,
+    Index most)
+: maps_(1),
+  box_(box),
+  reach_(reach),
+  samePlace_(samePlaceFraction * box.diameter())
 {
     std::vector<RigidMap> steps(generators);
     for (const RigidMap& generator : generators)
@@ -152,7 +143,7 @@ ImageGroup::ImageGroup
             {
                 maps_.push_back(map);
             }
-            if (Index(maps_.size()) > most || Index(all.size()) > 20*most)
+            if (Index(maps_.size()) > most || Index(all.size()) > 20 * most)
             {
                 throw TooManyImages(most);
             }
@@ -163,30 +154,22 @@ ImageGroup::ImageGroup
 
 bool ImageGroup::inReach(const RigidMap& map, double margin) const
 {
-    return
-        !(distance(boxOf(map, box_), box_) > (1 + 1e-9)*(reach_ + margin));
+    return !(distance(boxOf(map, box_), box_) > (1 + 1e-9) * (reach_ + margin));
 }
 
 
-bool ImageGroup::known
-(
-    const RigidMap& map,
-    const std::vector<RigidMap>& maps
-) const
+bool ImageGroup::known(
+    const RigidMap& map, const std::vector<RigidMap>& maps) const
 {
-    const Vector3 centre = 0.5*(box_.low + box_.high);
+    const Vector3 centre = 0.5 * (box_.low + box_.high);
     const Vector3 there = map(centre);
-    return std::any_of
-    (
-        maps.begin(),
-        maps.end(),
+    return std::any_of(
+        maps.begin(), maps.end(),
         [&](const RigidMap& other)
         {
-            return
-                (map.R - other.R).norm() < sameRotation
-             && (there - other(centre)).norm() <= samePlace_;
-        }
-    );
+            return (map.R - other.R).norm() < sameRotation
+                && (there - other(centre)).norm() <= samePlace_;
+        });
 }
 
 
@@ -202,15 +185,12 @@ Eigen::Matrix3d ImageGroup::projection(const Vector3& x) const
             ++count;
         }
     }
-    return sum/count;
+    return sum / count;
 }
 
 
-ControlPoint ImageGroup::restricted
-(
-    const ControlPoint& point,
-    double& contradiction
-) const
+ControlPoint
+ImageGroup::restricted(const ControlPoint& point, double& contradiction) const
 {
     contradiction = 0;
     const Eigen::Matrix3d P = projection(point.position);
@@ -220,22 +200,20 @@ ControlPoint ImageGroup::restricted
     }
 
     // C^T s = C^T P s: with P C = U S V^T the condition U^T s = S^-1 V^T g
-    const Eigen::JacobiSVD<Matrix> svd
-    (
-        P*point.C(), Eigen::ComputeThinU | Eigen::ComputeThinV
-    );
+    const Eigen::JacobiSVD<Matrix> svd(
+        P * point.C(), Eigen::ComputeThinU | Eigen::ComputeThinV);
     ControlPoint rest;
     rest.position = point.position;
     rest.directions.setZero();
     rest.k = 0;
-    const Eigen::VectorXd rotated = svd.matrixV().transpose()*point.g();
+    const Eigen::VectorXd rotated = svd.matrixV().transpose() * point.g();
     for (int a = 0; a < point.k; ++a)
     {
         const double scale = svd.singularValues()[a];
         if (scale > noDirection)
         {
             rest.directions.col(rest.k) = svd.matrixU().col(a);
-            rest.value[rest.k] = rotated[a]/scale;
+            rest.value[rest.k] = rotated[a] / scale;
             ++rest.k;
         }
         else
@@ -247,11 +225,8 @@ ControlPoint ImageGroup::restricted
 }
 
 
-std::vector<ImageGroup::Replica> ImageGroup::replicas
-(
-    const Columns& points,
-    double reach
-) const
+std::vector<ImageGroup::Replica>
+ImageGroup::replicas(const Columns& points, double reach) const
 {
     std::vector<Replica> found;
     for (std::size_t m = 1; m < maps_.size(); ++m)
@@ -261,7 +236,7 @@ std::vector<ImageGroup::Replica> ImageGroup::replicas
             const Vector3 x = points.row(j).transpose();
             const Vector3 y = maps_[m](x);
             const bool elsewhere = (y - x).norm() > samePlace_;
-            if (elsewhere && distance({y, y}, box_) <= (1 + 1e-9)*reach)
+            if (elsewhere && distance({y, y}, box_) <= (1 + 1e-9) * reach)
             {
                 found.push_back({j, Index(m), y});
             }
@@ -278,11 +253,11 @@ void ImageGroup::replicate(Columns& centres, Columns& weights) const
     for (std::size_t m = 1; m < maps_.size(); ++m)
     {
         const Columns images = maps_[m](Columns(centres.topRows(n)));
-        const Columns rotated = weights.topRows(n)*maps_[m].R.transpose();
+        const Columns rotated = weights.topRows(n) * maps_[m].R.transpose();
         for (Index j = 0; j < n; ++j)
         {
             const Vector3 image = images.row(j).transpose();
-            if (!(distance({image, image}, box_) > (1 + 1e-9)*reach_))
+            if (!(distance({image, image}, box_) > (1 + 1e-9) * reach_))
             {
                 x.push_back(images.row(j));
                 w.push_back(rotated.row(j));

@@ -23,7 +23,7 @@ struct RigidMap
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Vector3 t = Vector3::Zero();
 
-    Vector3 operator()(const Vector3& x) const { return R*x + t; }
+    Vector3 operator()(const Vector3& x) const { return R * x + t; }
 
     // Of points as rows: n x 3
     Columns operator()(const Columns& x) const;
@@ -39,12 +39,8 @@ struct RigidMap
     static RigidMap translation(const Vector3& t);
 
     // By an angle [rad] around the axis, of unit length, through a point
-    static RigidMap rotation
-    (
-        const Vector3& point,
-        const Vector3& axis,
-        double angle
-    );
+    static RigidMap
+    rotation(const Vector3& point, const Vector3& axis, double angle);
 };
 
 
@@ -59,9 +55,7 @@ struct Box
 
 
 // Thrown if a group has more images in reach than allowed
-struct TooManyImages
-:
-    std::length_error
+struct TooManyImages : std::length_error
 {
     explicit TooManyImages(Index most);
 
@@ -86,19 +80,14 @@ struct TooManyImages
 class ImageGroup
 {
 public:
-
     // The identity alone
     ImageGroup();
 
     // reach: beyond it the kernel is zero [m]; infinite for others, for which
     // the group has to be finite. Throws TooManyImages.
-    ImageGroup
-    (
-        const std::vector<RigidMap>& generators,
-        const Box& box,
-        double reach,
-        Index most
-    );
+    ImageGroup(
+        const std::vector<RigidMap>& generators, const Box& box, double reach,
+        Index most);
 
     // The identity is the first
     const std::vector<RigidMap>& maps() const { return maps_; }
@@ -113,11 +102,8 @@ public:
     // The condition that is left of a control point's for fields of the group;
     // k = 0 if they all meet it. contradiction: by how much its values differ
     // from what any of them can have [m].
-    ControlPoint restricted
-    (
-        const ControlPoint& point,
-        double& contradiction
-    ) const;
+    ControlPoint
+    restricted(const ControlPoint& point, double& contradiction) const;
 
     // An image of a point: of which of some, and by which of the maps
     struct Replica
@@ -139,7 +125,6 @@ public:
     void replicate(Columns& centres, Columns& weights) const;
 
 private:
-
     bool inReach(const RigidMap& map, double margin) const;
     bool known(const RigidMap& map, const std::vector<RigidMap>& maps) const;
 

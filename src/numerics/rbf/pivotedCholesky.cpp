@@ -22,23 +22,18 @@ namespace
 class ListFactor
 {
 public:
-
-    ListFactor
-    (
-        const ColumnsOfPoints& system,
-        const std::vector<Index>& first,
-        const Matrix& errors,
-        Index most
-    )
-    :
-        system_(system),
-        first_(first),
-        r_(errors),
-        V_(errors.rows(), most*(errors.cols() == 3 ? 1 : 3)),
-        usable_(first.size() - 1, 1),
-        open_(first.size() - 1),
-        upTo_(first.size() - 1, 0)
-    {}
+    ListFactor(
+        const ColumnsOfPoints& system, const std::vector<Index>& first,
+        const Matrix& errors, Index most)
+    : system_(system),
+      first_(first),
+      r_(errors),
+      V_(errors.rows(), most * (errors.cols() == 3 ? 1 : 3)),
+      usable_(first.size() - 1, 1),
+      open_(first.size() - 1),
+      upTo_(first.size() - 1, 0)
+    {
+    }
 
     // The usable point with the largest error above the least, or -1
     Index worst(double least) const
@@ -72,27 +67,24 @@ public:
 
         const Eigen::LLT<Matrix> pivot(v.middleRows(first_[p], k));
         const Matrix l = pivot.matrixL();
-        if
-        (
-            pivot.info() != Eigen::Success
-         || !(l.diagonal().cwiseAbs2().minCoeff() > leastPivot*scale)
-        )
+        if (pivot.info() != Eigen::Success
+            || !(l.diagonal().cwiseAbs2().minCoeff() > leastPivot * scale))
         {
             return false;
         }
 
-        l.transpose().triangularView<Eigen::Upper>()
+        l.transpose()
+            .triangularView<Eigen::Upper>()
             .solveInPlace<Eigen::OnTheRight>(v);
         const Matrix c =
             l.triangularView<Eigen::Lower>().solve(r_.middleRows(first_[p], k));
-        r_.noalias() -= v*c;
+        r_.noalias() -= v * c;
         V_.middleCols(taken_, k) = v;
         taken_ += k;
         return true;
     }
 
 private:
-
     // Points whose columns are computed together
     static constexpr Index batch = 16;
 
@@ -154,7 +146,7 @@ private:
         }
         if (n > 0)
         {
-            W.noalias() -= V_.middleCols(from, n)*rows.transpose();
+            W.noalias() -= V_.middleCols(from, n) * rows.transpose();
         }
     }
 
@@ -175,16 +167,10 @@ private:
 } // namespace
 
 
-ControlSystem::Choice pivotedCholesky
-(
-    const ColumnsOfPoints& system,
-    const std::vector<Index>& first,
-    const Matrix& r,
-    const std::vector<double>& scale,
-    Index most,
-    double least,
-    double outside
-)
+ControlSystem::Choice pivotedCholesky(
+    const ColumnsOfPoints& system, const std::vector<Index>& first,
+    const Matrix& r, const std::vector<double>& scale, Index most, double least,
+    double outside)
 {
     most = std::min<Index>(most, first.size() - 1);
     ListFactor factor(system, first, r, most);
@@ -193,10 +179,9 @@ ControlSystem::Choice pivotedCholesky
     {
         // Round-off may differ from that of the sweep: without an exception for
         // the first, there might be no progress and no end
-        const double bound =
-            !choice.taken.empty() ? std::max(least, outside)
-          : choice.singular.empty() ? -1
-          : least;
+        const double bound = !choice.taken.empty() ? std::max(least, outside)
+            : choice.singular.empty()              ? -1
+                                                   : least;
         const Index p = factor.worst(bound);
         if (p < 0)
         {

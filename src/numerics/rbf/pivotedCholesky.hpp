@@ -27,16 +27,10 @@ using ColumnsOfPoints = std::function<Matrix(const std::vector<Index>&)>;
 // system: W by its columns; first: the first row of each point in it, and the
 // end; r: the residuals, with one row for each of W; scale:
 // of each point's pivot. most, least and outside: see ControlSystem::choose().
-ControlSystem::Choice pivotedCholesky
-(
-    const ColumnsOfPoints& system,
-    const std::vector<Index>& first,
-    const Matrix& r,
-    const std::vector<double>& scale,
-    Index most,
-    double least,
-    double outside
-);
+ControlSystem::Choice pivotedCholesky(
+    const ColumnsOfPoints& system, const std::vector<Index>& first,
+    const Matrix& r, const std::vector<double>& scale, Index most, double least,
+    double outside);
 
 } // namespace morph
 

@@ -20,13 +20,9 @@ constexpr double flat = 1e-6;
 
 
 // The candidate farthest from the span of the basis
-std::vector<Candidate> farthest
-(
-    const ControlPoints& candidates,
-    const AffineBasis& basis,
-    bool slidingToo,
-    Communicator& communicator
-)
+std::vector<Candidate> farthest(
+    const ControlPoints& candidates, const AffineBasis& basis, bool slidingToo,
+    Communicator& communicator)
 {
     const Index n = candidates.size();
     Errors far;
@@ -45,13 +41,9 @@ std::vector<Candidate> farthest
 } // namespace
 
 
-std::vector<Candidate> polynomialNodes
-(
-    const Kernel& kernel,
-    const ControlPoints& candidates,
-    Index most,
-    Communicator& communicator
-)
+std::vector<Candidate> polynomialNodes(
+    const Kernel& kernel, const ControlPoints& candidates, Index most,
+    Communicator& communicator)
 {
     std::vector<Candidate> nodes;
     AffineBasis basis;
@@ -60,7 +52,7 @@ std::vector<Candidate> polynomialNodes
     {
         const std::vector<Candidate> next =
             farthest(candidates, basis, false, communicator);
-        if (next.empty() || next[0].error <= flat*span)
+        if (next.empty() || next[0].error <= flat * span)
         {
             break;
         }
@@ -74,31 +66,25 @@ std::vector<Candidate> polynomialNodes
 
     if (nodes.empty())
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "a linear polynomial needs moving or fixed control points, "
-            "but there are none"
-        );
+            "but there are none");
     }
     if (kernel.order() > 1 && most < 4)
     {
-        throw std::invalid_argument
-        (
+        throw std::invalid_argument(
             "thinPlate needs at least four points, but no more than "
-          + std::to_string(most) + " are allowed"
-        );
+            + std::to_string(most) + " are allowed");
     }
     if (kernel.order() > 1)
     {
         const std::vector<Candidate> off =
             farthest(candidates, basis, true, communicator);
-        if (!off.empty() && off[0].error > flat*span)
+        if (!off.empty() && off[0].error > flat * span)
         {
-            throw std::invalid_argument
-            (
+            throw std::invalid_argument(
                 "thinPlate needs moving or fixed control points that do not "
-                "all lie in one plane (in 2D: on one line)"
-            );
+                "all lie in one plane (in 2D: on one line)");
         }
     }
     return nodes;

@@ -16,13 +16,9 @@ namespace morph
 // position, then each the farthest from the span of the others. The same on
 // every rank; collective. Throws std::invalid_argument where the candidates of
 // all ranks cannot carry what the kernel needs.
-std::vector<Candidate> polynomialNodes
-(
-    const Kernel& kernel,
-    const ControlPoints& candidates,
-    Index most,
-    Communicator& communicator
-);
+std::vector<Candidate> polynomialNodes(
+    const Kernel& kernel, const ControlPoints& candidates, Index most,
+    Communicator& communicator);
 
 // Positions of listed points: n x 3
 Columns positions(const std::vector<Candidate>& points);

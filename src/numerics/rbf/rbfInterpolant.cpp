@@ -17,22 +17,22 @@ namespace
 // all, so that those left out as out of reach change nothing
 bool rootless(Index j)
 {
-    return j%groupSize >= rootsOfGroup;
+    return j % groupSize >= rootsOfGroup;
 }
 
 } // namespace
 
 
 RbfInterpolant::RbfInterpolant(const Kernel& kernel)
-:
-    kernel_(kernel),
-    centres_(0, 3),
-    weights_(0, 3),
-    polynomial_(false),
-    origin_(Vector3::Zero()),
-    offset_(Vector3::Zero()),
-    gradient_(Eigen::Matrix3d::Zero())
-{}
+: kernel_(kernel),
+  centres_(0, 3),
+  weights_(0, 3),
+  polynomial_(false),
+  origin_(Vector3::Zero()),
+  offset_(Vector3::Zero()),
+  gradient_(Eigen::Matrix3d::Zero())
+{
+}
 
 
 void RbfInterpolant::set(const Columns& centres, const Columns& weights)
@@ -42,12 +42,9 @@ void RbfInterpolant::set(const Columns& centres, const Columns& weights)
 }
 
 
-void RbfInterpolant::setPolynomial
-(
-    const Vector3& origin,
-    const Vector3& offset,
-    const Eigen::Matrix3d& gradient
-)
+void RbfInterpolant::setPolynomial(
+    const Vector3& origin, const Vector3& offset,
+    const Eigen::Matrix3d& gradient)
 {
     polynomial_ = true;
     origin_ = origin;
@@ -62,28 +59,28 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
 
     // Lengths in units of the support radius, from the first centre: scaled
     // alone, positions far from the origin would lose digits.
-    const double scale = 1/kernel_.supportRadius();
+    const double scale = 1 / kernel_.supportRadius();
     const Index n = centres_.rows();
-    const Eigen::RowVector3d from =
-        n > 0 ? Eigen::RowVector3d(centres_.row(0))
-      : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
-    const Columns scaled = scale*(centres_.rowwise() - from);
+    const Eigen::RowVector3d from = n > 0
+        ? Eigen::RowVector3d(centres_.row(0))
+        : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+    const Columns scaled = scale * (centres_.rowwise() - from);
 
     // With the numbers of the sum itself, and a margin for the order of its
     // operations: what is skipped would have added zero.
     const double reach2 = 1 + 1e-12;
 
     Columns c(n, 3), w(n, 3), x, sums;
-    std::vector<CentreGroup> groups;   // in c and w
+    std::vector<CentreGroup> groups; // in c and w
 
     // Those without a root stand behind all others
     const Index nRooted =
-        n/groupSize*rootsOfGroup + std::min(n%groupSize, rootsOfGroup);
+        n / groupSize * rootsOfGroup + std::min(n % groupSize, rootsOfGroup);
     for (const PointCloud::Leaf& leaf : points.leaves())
     {
         PointCloud::Leaf box = leaf;
-        box.low = scale*(leaf.low - from.transpose());
-        box.high = scale*(leaf.high - from.transpose());
+        box.low = scale * (leaf.low - from.transpose());
+        box.high = scale * (leaf.high - from.transpose());
 
         groups.clear();
         CentreGroup group = {0, 0, nRooted, nRooted};
@@ -97,17 +94,14 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
                 w.row(m) = weights_.row(j);
                 ++m;
             }
-            if ((j + 1)%groupSize == 0 || j + 1 == n)
+            if ((j + 1) % groupSize == 0 || j + 1 == n)
             {
                 if (!group.empty())
                 {
                     groups.push_back(group);
                 }
-                group =
-                {
-                    group.end, group.end,
-                    group.rootlessEnd, group.rootlessEnd
-                };
+                group = {
+                    group.end, group.end, group.rootlessEnd, group.rootlessEnd};
             }
         }
 
@@ -116,14 +110,14 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
         x *= scale;
         sums = Columns::Zero(size, 3);
 
-        const double* const xs[3] =
-            {x.col(0).data(), x.col(1).data(), x.col(2).data()};
-        double* const ss[3] =
-            {sums.col(0).data(), sums.col(1).data(), sums.col(2).data()};
-        const double* const cs[3] =
-            {c.col(0).data(), c.col(1).data(), c.col(2).data()};
-        const double* const ws[3] =
-            {w.col(0).data(), w.col(1).data(), w.col(2).data()};
+        const double* const xs[3] = {
+            x.col(0).data(), x.col(1).data(), x.col(2).data()};
+        double* const ss[3] = {
+            sums.col(0).data(), sums.col(1).data(), sums.col(2).data()};
+        const double* const cs[3] = {
+            c.col(0).data(), c.col(1).data(), c.col(2).data()};
+        const double* const ws[3] = {
+            w.col(0).data(), w.col(1).data(), w.col(2).data()};
         addKernelSum(kernel_.type(), xs, size, cs, ws, groups, ss);
 
         if (polynomial_)
@@ -133,7 +127,7 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
                 const Vector3 d =
                     points.sorted().row(leaf.begin + i).transpose() - origin_;
                 sums.row(i) +=
-                    (offset_ + gradient_.transpose()*d).transpose();
+                    (offset_ + gradient_.transpose() * d).transpose();
             }
         }
 

@@ -19,7 +19,6 @@ namespace morph
 class RbfInterpolant
 {
 public:
-
     explicit RbfInterpolant(const Kernel& kernel);
 
     const Kernel& kernel() const { return kernel_; }
@@ -32,12 +31,9 @@ public:
 
     void set(const Columns& centres, const Columns& weights);
 
-    void setPolynomial
-    (
-        const Vector3& origin,
-        const Vector3& offset,
-        const Eigen::Matrix3d& gradient
-    );
+    void setPolynomial(
+        const Vector3& origin, const Vector3& offset,
+        const Eigen::Matrix3d& gradient);
 
     // s at all points of the cloud, in the order in which they were given to
     // it: n x 3 [m]. Centres out of a leaf's reach are skipped, which changes
@@ -48,7 +44,6 @@ public:
     Vectors operator()(const Vectors& points) const;
 
 private:
-
     Kernel kernel_;
     Columns centres_;
     Columns weights_;

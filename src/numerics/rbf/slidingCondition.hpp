@@ -41,7 +41,8 @@ struct TangentPlanes
 // and those of the planes, |n . n*|; if it is less than leastSlidingCosine the
 // point has gone too far around the surface for its directions, and the step is
 // that of this cosine.
-double slideOnto(ControlPoint& p, const Vector3& s, const TangentPlanes& planes);
+double
+slideOnto(ControlPoint& p, const Vector3& s, const TangentPlanes& planes);
 
 constexpr double leastSlidingCosine = 0.3;
 

@@ -9,16 +9,11 @@
 namespace morph
 {
 
-SubStep subStep
-(
-    const SubStepSettings& settings,
-    const ControlPoints& conditions,
-    const Vectors& reached,
-    const int steps,
-    const GreedySelection::Renewal& renewal,
-    const Vectors& positions,
-    Communicator& communicator
-)
+SubStep subStep(
+    const SubStepSettings& settings, const ControlPoints& conditions,
+    const Vectors& reached, const int steps,
+    const GreedySelection::Renewal& renewal, const Vectors& positions,
+    Communicator& communicator)
 {
     ControlPoints whole = conditions;
     ControlPoints part = conditions;
@@ -27,7 +22,7 @@ SubStep subStep
         for (Index i = 0; i < Index(part.size()); ++i)
         {
             part[i].value =
-                whole[i].residual(reached.row(i).transpose())/steps;
+                whole[i].residual(reached.row(i).transpose()) / steps;
         }
     };
     for (Index i = 0; i < Index(part.size()); ++i)
@@ -37,11 +32,9 @@ SubStep subStep
     divide();
 
     SubStep step;
-    const auto selection = std::make_shared<GreedySelection>
-    (
+    const auto selection = std::make_shared<GreedySelection>(
         settings.kernel, settings.polynomial, settings.selection,
-        settings.images
-    );
+        settings.images);
     step.selection = selection;
     if (renewal)
     {
@@ -55,10 +48,8 @@ SubStep subStep
             }
         };
         ControlPoints candidates = part;
-        step.result = selection->select
-        (
-            candidates, communicator, GreedySelection::Renewal(renewPart)
-        );
+        step.result = selection->select(
+            candidates, communicator, GreedySelection::Renewal(renewPart));
     }
     else
     {
@@ -69,11 +60,9 @@ SubStep subStep
     if (settings.correctionRadius > 0)
     {
         ExactSurface correction(settings.correctionRadius, settings.images);
-        correction.add
-        (
+        correction.add(
             part, selection->residuals(part), communicator, positions,
-            step.displacements
-        );
+            step.displacements);
     }
     step.candidates = std::make_shared<ControlPoints>(std::move(part));
     return step;

@@ -56,16 +56,10 @@ struct SubStep
 // positions: of the points, in the intermediate mesh
 // steps: this one and those that remain
 // Throws as GreedySelection does. Collective.
-SubStep subStep
-(
-    const SubStepSettings& settings,
-    const ControlPoints& conditions,
-    const Vectors& reached,
-    int steps,
-    const GreedySelection::Renewal& renewal,
-    const Vectors& positions,
-    Communicator& communicator
-);
+SubStep subStep(
+    const SubStepSettings& settings, const ControlPoints& conditions,
+    const Vectors& reached, int steps, const GreedySelection::Renewal& renewal,
+    const Vectors& positions, Communicator& communicator);
 
 } // namespace morph
 

@@ -25,36 +25,25 @@ constexpr int mostLevels = 60;
 std::size_t SurfaceCorrection::Hash::operator()(const Cell& cell) const
 {
     // Large primes, as is usual for spatial hashing
-    return
-        std::size_t(cell[0])*73856093u
-      ^ std::size_t(cell[1])*19349663u
-      ^ std::size_t(cell[2])*83492791u;
+    return std::size_t(cell[0]) * 73856093u ^ std::size_t(cell[1]) * 19349663u
+        ^ std::size_t(cell[2]) * 83492791u;
 }
 
 
-SurfaceCorrection::Cell SurfaceCorrection::cellOf
-(
-    const Vector3& x,
-    double size
-)
+SurfaceCorrection::Cell SurfaceCorrection::cellOf(const Vector3& x, double size)
 {
     Cell cell;
     for (int a = 0; a < 3; ++a)
     {
-        cell[a] = std::int64_t(std::floor(x[a]/size));
+        cell[a] = std::int64_t(std::floor(x[a] / size));
     }
     return cell;
 }
 
 
-template<class Action>
-void SurfaceCorrection::cellsAround
-(
-    const Grid& grid,
-    const Vector3& x,
-    double size,
-    const Action& action
-)
+template <class Action>
+void SurfaceCorrection::cellsAround(
+    const Grid& grid, const Vector3& x, double size, const Action& action)
 {
     const Cell middle = cellOf(x, size);
     Cell cell;
@@ -75,22 +64,15 @@ void SurfaceCorrection::cellsAround
 }
 
 
-SurfaceCorrection::SurfaceCorrection
-(
-    const Columns& centres,
-    double radius,
-    const std::vector<Index>& family
-)
-:
-    centres_(centres),
-    coefficients_(Vectors::Zero(centres.rows(), 3))
+SurfaceCorrection::SurfaceCorrection(
+    const Columns& centres, double radius, const std::vector<Index>& family)
+: centres_(centres),
+  coefficients_(Vectors::Zero(centres.rows(), 3))
 {
     if (!(radius > 0) || !std::isfinite(radius))
     {
-        throw std::invalid_argument
-        (
-            "the radius of the surface correction must be positive"
-        );
+        throw std::invalid_argument(
+            "the radius of the surface correction must be positive");
     }
 
     Families all(centres.rows());
@@ -111,10 +93,8 @@ SurfaceCorrection::SurfaceCorrection
     {
         if (l == mostLevels)
         {
-            throw std::invalid_argument
-            (
-                "two points of the surface correction are at one place"
-            );
+            throw std::invalid_argument(
+                "two points of the surface correction are at one place");
         }
         levels_.push_back(makeLevel(left, h));
     }
@@ -122,11 +102,8 @@ SurfaceCorrection::SurfaceCorrection
 }
 
 
-SurfaceCorrection::Level SurfaceCorrection::makeLevel
-(
-    Families& left,
-    double radius
-) const
+SurfaceCorrection::Level
+SurfaceCorrection::makeLevel(Families& left, double radius) const
 {
     Level level;
     level.radius = radius;
@@ -153,21 +130,15 @@ SurfaceCorrection::Level SurfaceCorrection::makeLevel
         {
             const Vector3 x = centres_.row(members[k]);
             const auto apart = [&](const Index j)
-            {
-                return (centres_.row(j).transpose() - x).norm() >= radius;
-            };
-            alone =
-                alone
-             && std::all_of(members.begin(), members.begin() + k, apart);
-            cellsAround
-            (
+            { return (centres_.row(j).transpose() - x).norm() >= radius; };
+            alone = alone
+                && std::all_of(members.begin(), members.begin() + k, apart);
+            cellsAround(
                 placed, x, radius,
-                [&](const std::vector<Index>& there)
-                {
+                [&](const std::vector<Index>& there) {
                     alone =
                         alone && std::all_of(there.begin(), there.end(), apart);
-                }
-            );
+                });
         }
         if (!alone)
         {
@@ -187,12 +158,9 @@ SurfaceCorrection::Level SurfaceCorrection::makeLevel
 }
 
 
-SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt
-(
-    const Level& level,
-    const Vectors& points,
-    std::vector<std::int32_t>& near
-) const
+SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt(
+    const Level& level, const Vectors& points,
+    std::vector<std::int32_t>& near) const
 {
     const Kernel kernel(KernelType::wendlandC2, level.radius);
     Reach::Level reach;
@@ -201,11 +169,9 @@ SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt
     {
         const Vector3 x = points.row(i);
         bool isNear = false;
-        cellsAround
-        (
+        cellsAround(
             level.all, x, level.radius,
-            [&](const std::vector<Index>&) { isNear = true; }
-        );
+            [&](const std::vector<Index>&) { isNear = true; });
         if (!isNear)
         {
             continue;
@@ -213,8 +179,7 @@ SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt
         still.push_back(i);
 
         const std::size_t begin = reach.centres.size();
-        cellsAround
-        (
+        cellsAround(
             level.grid, x, level.radius,
             [&](const std::vector<Index>& there)
             {
@@ -228,8 +193,7 @@ SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt
                         reach.values.push_back(value);
                     }
                 }
-            }
-        );
+            });
         if (reach.centres.size() > begin)
         {
             reach.points.push_back(i);
@@ -255,12 +219,8 @@ SurfaceCorrection::Reach SurfaceCorrection::reach(const Vectors& points) const
 }
 
 
-void SurfaceCorrection::addLevel
-(
-    const Reach::Level& reach,
-    double factor,
-    Vectors& displacements
-) const
+void SurfaceCorrection::addLevel(
+    const Reach::Level& reach, double factor, Vectors& displacements) const
 {
     for (std::size_t i = 0; i < reach.points.size(); ++i)
     {
@@ -268,9 +228,9 @@ void SurfaceCorrection::addLevel
         for (std::size_t k = reach.begin[i]; k < reach.begin[i + 1]; ++k)
         {
             sum += reach.values[k]
-               *coefficients_.row(reach.centres[k]).transpose();
+                * coefficients_.row(reach.centres[k]).transpose();
         }
-        displacements.row(reach.points[i]) += factor*sum.transpose();
+        displacements.row(reach.points[i]) += factor * sum.transpose();
     }
 }
 

@@ -30,17 +30,13 @@ namespace morph
 class SurfaceCorrection
 {
 public:
-
     // centres: n x 3 [m], those of all ranks in one order, no two at one place;
     // radius: h_0 [m]
     // family: of each centre the first that it is an image of, or itself;
     // none: each by itself
-    SurfaceCorrection
-    (
-        const Columns& centres,
-        double radius,
-        const std::vector<Index>& family = std::vector<Index>()
-    );
+    SurfaceCorrection(
+        const Columns& centres, double radius,
+        const std::vector<Index>& family = std::vector<Index>());
 
     // What is to be added at the centres: n x 3 [m]
     void set(const Vectors& residuals);
@@ -74,7 +70,6 @@ public:
     Index levels() const { return levels_.size(); }
 
 private:
-
     using Cell = std::array<std::int64_t, 3>;
 
     struct Hash
@@ -98,14 +93,9 @@ private:
     static Cell cellOf(const Vector3& x, double size);
 
     // Calls action(points) for each cell of the grid at x or next to it
-    template<class Action>
-    static void cellsAround
-    (
-        const Grid& grid,
-        const Vector3& x,
-        double size,
-        const Action& action
-    );
+    template <class Action>
+    static void cellsAround(
+        const Grid& grid, const Vector3& x, double size, const Action& action);
 
     using Families = std::vector<std::vector<Index>>;
 
@@ -115,24 +105,17 @@ private:
     // Of some of the points, at one level. Those out of reach of the cells of
     // all centres, whatever their level, are taken off the list: so they are at
     // all later ones
-    Reach::Level reachAt
-    (
-        const Level& level,
-        const Vectors& points,
-        std::vector<std::int32_t>& near
-    ) const;
+    Reach::Level reachAt(
+        const Level& level, const Vectors& points,
+        std::vector<std::int32_t>& near) const;
 
     // Adds `factor` times what a level does at its points
-    void addLevel
-    (
-        const Reach::Level& reach,
-        double factor,
-        Vectors& displacements
-    ) const;
+    void addLevel(
+        const Reach::Level& reach, double factor, Vectors& displacements) const;
 
     Columns centres_;
     std::vector<Level> levels_;
-    Reach among_;   // the centres
+    Reach among_; // the centres
     Vectors coefficients_;
 };
 

@@ -31,22 +31,17 @@ std::map<std::string, Record>& records()
 }
 
 
-class RecordsPrinter
-:
-    public testing::Environment
+class RecordsPrinter : public testing::Environment
 {
 public:
-
     void TearDown() override
     {
         std::printf("Largest deviations (and their bounds)\n");
         for (const auto& r : records())
         {
-            std::printf
-            (
-                "  %-58s %9.2e (%.3g)\n",
-                r.first.c_str(), r.second.deviation, r.second.bound
-            );
+            std::printf(
+                "  %-58s %9.2e (%.3g)\n", r.first.c_str(), r.second.deviation,
+                r.second.bound);
         }
     }
 };
@@ -58,12 +53,8 @@ const testing::Environment* const printer =
 } // namespace
 
 
-testing::AssertionResult within
-(
-    const std::string& property,
-    double deviation,
-    double bound
-)
+testing::AssertionResult
+within(const std::string& property, double deviation, double bound)
 {
     Record& r = records()[property];
     r.deviation = std::max(r.deviation, deviation);
@@ -80,7 +71,7 @@ testing::AssertionResult within
 
 double Random::uniform(double low, double high)
 {
-    return low + (high - low)*(engine_()/4294967296.0);
+    return low + (high - low) * (engine_() / 4294967296.0);
 }
 
 
@@ -124,27 +115,20 @@ std::vector<Index> Random::permutation(Index n)
 }
 
 
-std::vector<Vector3> Random::pointsApart
-(
-    Index n,
-    int dimension,
-    double distance
-)
+std::vector<Vector3>
+Random::pointsApart(Index n, int dimension, double distance)
 {
     std::vector<Vector3> points;
     while (Index(points.size()) < n)
     {
-        Vector3 x = 0.5*(inBox() + Vector3::Ones());
+        Vector3 x = 0.5 * (inBox() + Vector3::Ones());
         if (dimension == 2)
         {
             x.z() = 0.3;
         }
-        const bool apart = std::all_of
-        (
-            points.begin(),
-            points.end(),
-            [&](const Vector3& p) { return (p - x).norm() > distance; }
-        );
+        const bool apart = std::all_of(
+            points.begin(), points.end(),
+            [&](const Vector3& p) { return (p - x).norm() > distance; });
         if (apart)
         {
             points.push_back(x);
@@ -165,24 +149,21 @@ ControlPoints randomControlPoints(Random& random, const Mixture& mixture)
         return v;
     };
     const Index n = mixture.moving + mixture.onSurface + mixture.onEdge;
-    const double distance = 0.5*std::pow(1.0/n, 1.0/mixture.dimension);
+    const double distance = 0.5 * std::pow(1.0 / n, 1.0 / mixture.dimension);
 
     ControlPoints points;
     for (const Vector3& x : random.pointsApart(n, mixture.dimension, distance))
     {
         const Index i = points.size();
-        const Vector3 s = inSpace(0.1*random.inBox());
+        const Vector3 s = inSpace(0.1 * random.inBox());
         const Vector3 a = inSpace(random.direction());
         const Vector3 b =
             mixture.dimension == 2 ? Vector3::UnitZ() : random.direction();
-        points.push_back
-        (
-            i < mixture.moving
-          ? ControlPoint::prescribed(x, s)
-          : i < mixture.moving + mixture.onSurface
-          ? ControlPoint::sliding(x, {a}, s)
-          : ControlPoint::sliding(x, {a, b}, s)
-        );
+        points.push_back(
+            i < mixture.moving ? ControlPoint::prescribed(x, s)
+                : i < mixture.moving + mixture.onSurface
+                ? ControlPoint::sliding(x, {a}, s)
+                : ControlPoint::sliding(x, {a, b}, s));
     }
 
     // Not sorted by sort, as in a mesh
@@ -242,13 +223,10 @@ std::string nameOf(KernelType type)
 
 std::vector<KernelType> allKernels()
 {
-    return
-    {
-        KernelType::wendlandC0, KernelType::wendlandC2,
-        KernelType::wendlandC4, KernelType::wendlandC6,
-        KernelType::gaussian, KernelType::inverseMultiQuadric,
-        KernelType::multiQuadric, KernelType::thinPlate
-    };
+    return {KernelType::wendlandC0,   KernelType::wendlandC2,
+            KernelType::wendlandC4,   KernelType::wendlandC6,
+            KernelType::gaussian,     KernelType::inverseMultiQuadric,
+            KernelType::multiQuadric, KernelType::thinPlate};
 }
 
 
@@ -264,22 +242,18 @@ double moderateRadius(KernelType type)
 {
     switch (type)
     {
-        case KernelType::gaussian:
-        case KernelType::inverseMultiQuadric:
-        case KernelType::multiQuadric:
-            return 0.25;
-        default:
-            return 0.8;
+    case KernelType::gaussian:
+    case KernelType::inverseMultiQuadric:
+    case KernelType::multiQuadric:
+        return 0.25;
+    default:
+        return 0.8;
     }
 }
 
 
-RbfInterpolant throughAll
-(
-    const Kernel& kernel,
-    Polynomial polynomial,
-    const ControlPoints& points
-)
+RbfInterpolant throughAll(
+    const Kernel& kernel, Polynomial polynomial, const ControlPoints& points)
 {
     SelectionSettings settings;
     settings.all = true;
@@ -304,7 +278,7 @@ using RealVector = Eigen::Matrix<Real, 3, 1>;
 Real scaledDistance(const Vector3& a, const Vector3& b, double radius)
 {
     const RealVector d = a.cast<Real>() - b.cast<Real>();
-    return std::sqrt(d.dot(d))/Real(radius);
+    return std::sqrt(d.dot(d)) / Real(radius);
 }
 
 
@@ -331,12 +305,8 @@ RealMatrix polynomials(const Vector3& x, const std::vector<Vector3>& axes)
 }
 
 
-RealMatrix gramMatrix
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& points
-)
+RealMatrix
+gramMatrix(KernelType type, double radius, const ControlPoints& points)
 {
     const std::vector<Index> first = firstRows(points);
     RealMatrix G(first.back(), first.back());
@@ -344,21 +314,16 @@ RealMatrix gramMatrix
     {
         for (std::size_t j = 0; j < points.size(); ++j)
         {
-            const Real value = phi
-            (
+            const Real value = phi(
                 type,
-                scaledDistance(points[i].position, points[j].position, radius)
-            );
+                scaledDistance(points[i].position, points[j].position, radius));
             for (int a = 0; a < points[i].k; ++a)
             {
                 for (int b = 0; b < points[j].k; ++b)
                 {
-                    G(first[i] + a, first[j] + b) =
-                        value
-                       *points[i].directions.col(a).cast<Real>().dot
-                        (
-                            points[j].directions.col(b).cast<Real>()
-                        );
+                    G(first[i] + a, first[j] + b) = value
+                        * points[i].directions.col(a).cast<Real>().dot(
+                            points[j].directions.col(b).cast<Real>());
                 }
             }
         }
@@ -368,13 +333,9 @@ RealMatrix gramMatrix
 
 
 // Field whose weights are C_i alpha_i
-Field weighted
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& points,
-    const RealMatrix& alpha
-)
+Field weighted(
+    KernelType type, double radius, const ControlPoints& points,
+    const RealMatrix& alpha)
 {
     const std::vector<Index> first = firstRows(points);
     Field f;
@@ -386,9 +347,8 @@ Field weighted
     {
         for (int a = 0; a < points[i].k; ++a)
         {
-            f.weights.row(i) +=
-                alpha(first[i] + a)
-               *points[i].directions.col(a).cast<Real>().transpose();
+            f.weights.row(i) += alpha(first[i] + a)
+                * points[i].directions.col(a).cast<Real>().transpose();
         }
     }
     return f;
@@ -415,8 +375,8 @@ std::vector<Real> wendland(int k)
         std::vector<Real> integral(f.size() + 2, 0);
         for (std::size_t m = 0; m < f.size(); ++m)
         {
-            integral[0] += f[m]/(m + 2);
-            integral[m + 2] -= f[m]/(m + 2);
+            integral[0] += f[m] / (m + 2);
+            integral[m + 2] -= f[m] / (m + 2);
         }
         f = integral;
     }
@@ -434,15 +394,20 @@ Real phi(KernelType type, Real d)
 {
     switch (type)
     {
-        case KernelType::gaussian: return std::exp(-d*d);
-        case KernelType::inverseMultiQuadric: return 1/std::sqrt(1 + d*d);
-        case KernelType::multiQuadric: return -std::sqrt(1 + d*d);
-        case KernelType::thinPlate: return d > 0 ? d*d*std::log(d) : Real(0);
-        default: break;
+    case KernelType::gaussian:
+        return std::exp(-d * d);
+    case KernelType::inverseMultiQuadric:
+        return 1 / std::sqrt(1 + d * d);
+    case KernelType::multiQuadric:
+        return -std::sqrt(1 + d * d);
+    case KernelType::thinPlate:
+        return d > 0 ? d * d * std::log(d) : Real(0);
+    default:
+        break;
     }
 
-    static const std::vector<Real> functions[4] =
-        {wendland(0), wendland(1), wendland(2), wendland(3)};
+    static const std::vector<Real> functions[4] = {
+        wendland(0), wendland(1), wendland(2), wendland(3)};
     if (d >= 1)
     {
         return 0;
@@ -451,7 +416,7 @@ Real phi(KernelType type, Real d)
     Real value = 0;
     for (std::size_t m = c.size(); m > 0; --m)
     {
-        value = value*d + c[m - 1];
+        value = value * d + c[m - 1];
     }
     return value;
 }
@@ -467,13 +432,12 @@ Vectors Field::operator()(const Vectors& x) const
         for (Index j = 0; j < centres.rows(); ++j)
         {
             const Vector3 c = centres.row(j).transpose();
-            sum +=
-                phi(type, scaledDistance(p, c, radius))
-               *weights.row(j).transpose();
+            sum += phi(type, scaledDistance(p, c, radius))
+                * weights.row(j).transpose();
         }
         if (coefficients.rows() > 0)
         {
-            sum += coefficients.transpose()*polynomials(p, axes);
+            sum += coefficients.transpose() * polynomials(p, axes);
         }
         s.row(i) = sum.cast<double>().transpose();
     }
@@ -502,24 +466,20 @@ Field paper(KernelType type, double radius, const ControlPoints& points)
 {
     // Unknowns Gamma_1, Gamma_2, Gamma_3 as in (6)
     const Index n = points.size();
-    RealMatrix A = RealMatrix::Zero(3*n, 3*n);
-    RealMatrix b = RealMatrix::Zero(3*n, 1);
+    RealMatrix A = RealMatrix::Zero(3 * n, 3 * n);
+    RealMatrix b = RealMatrix::Zero(3 * n, 1);
     for (Index i = 0; i < n; ++i)
     {
         const ControlPoint& p = points[i];
 
         // The normals first, then the tangents that complete them
-        Eigen::Matrix<Real, 3, 3> frame =
-            p.directions.cast<Real>();
+        Eigen::Matrix<Real, 3, 3> frame = p.directions.cast<Real>();
         if (p.k < 3)
         {
-            Eigen::Matrix<Real, 3, 3> given =
-                Eigen::Matrix<Real, 3, 3>::Zero();
+            Eigen::Matrix<Real, 3, 3> given = Eigen::Matrix<Real, 3, 3>::Zero();
             given.leftCols(p.k) = frame.leftCols(p.k);
-            const Eigen::FullPivLU<RealMatrix> lu
-            (
-                RealMatrix(given.leftCols(p.k).transpose())
-            );
+            const Eigen::FullPivLU<RealMatrix> lu(
+                RealMatrix(given.leftCols(p.k).transpose()));
             frame.rightCols(3 - p.k) = lu.kernel();
         }
 
@@ -531,24 +491,18 @@ Field paper(KernelType type, double radius, const ControlPoints& points)
                 {
                     for (Index j = 0; j < n; ++j)
                     {
-                        A(3*i + row, c*n + j) =
-                            frame(c, row)
-                           *phi
-                            (
-                                type,
-                                scaledDistance
-                                (
-                                    p.position, points[j].position, radius
-                                )
-                            );
+                        A(3 * i + row, c * n + j) = frame(c, row)
+                            * phi(type,
+                                  scaledDistance(
+                                      p.position, points[j].position, radius));
                     }
                 }
                 else
                 {
-                    A(3*i + row, c*n + i) = frame(c, row);
+                    A(3 * i + row, c * n + i) = frame(c, row);
                 }
             }
-            b(3*i + row) = row < p.k ? p.value(row) : 0;
+            b(3 * i + row) = row < p.k ? p.value(row) : 0;
         }
     }
 
@@ -560,27 +514,23 @@ Field paper(KernelType type, double radius, const ControlPoints& points)
     f.weights.resize(n, 3);
     for (int c = 0; c < 3; ++c)
     {
-        f.weights.col(c) = gamma.middleRows(c*n, n);
+        f.weights.col(c) = gamma.middleRows(c * n, n);
     }
     return f;
 }
 
 
-Field augmented
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& points,
-    const std::vector<Vector3>& axes
-)
+Field augmented(
+    KernelType type, double radius, const ControlPoints& points,
+    const std::vector<Vector3>& axes)
 {
     // No axes: no polynomial at all
     const std::vector<Index> first = firstRows(points);
     const Index n = first.back();
     const Index nq = axes.empty() ? 0 : 1 + axes.size();
 
-    RealMatrix A = RealMatrix::Zero(n + 3*nq, n + 3*nq);
-    RealMatrix b = RealMatrix::Zero(n + 3*nq, 1);
+    RealMatrix A = RealMatrix::Zero(n + 3 * nq, n + 3 * nq);
+    RealMatrix b = RealMatrix::Zero(n + 3 * nq, 1);
     A.topLeftCorner(n, n) = gramMatrix(type, radius, points);
     for (std::size_t i = 0; i < points.size(); ++i)
     {
@@ -593,8 +543,8 @@ Field augmented
             {
                 for (int c = 0; c < 3; ++c)
                 {
-                    A(row, n + 3*m + c) = points[i].directions(c, a)*q(m);
-                    A(n + 3*m + c, row) = A(row, n + 3*m + c);
+                    A(row, n + 3 * m + c) = points[i].directions(c, a) * q(m);
+                    A(n + 3 * m + c, row) = A(row, n + 3 * m + c);
                 }
             }
         }
@@ -606,7 +556,7 @@ Field augmented
     f.coefficients.resize(nq, 3);
     for (Index m = 0; m < nq; ++m)
     {
-        f.coefficients.row(m) = solution.middleRows(n + 3*m, 3).transpose();
+        f.coefficients.row(m) = solution.middleRows(n + 3 * m, 3).transpose();
     }
     return f;
 }
@@ -620,10 +570,9 @@ std::vector<double> errors(const ControlPoints& points, const Vectors& s)
         double sum = 0;
         for (int a = 0; a < points[i].k; ++a)
         {
-            const double difference =
-                points[i].value(a)
-              - points[i].directions.col(a).dot(s.row(i).transpose());
-            sum += difference*difference;
+            const double difference = points[i].value(a)
+                - points[i].directions.col(a).dot(s.row(i).transpose());
+            sum += difference * difference;
         }
         e.push_back(std::sqrt(sum));
     }
@@ -631,13 +580,9 @@ std::vector<double> errors(const ControlPoints& points, const Vectors& s)
 }
 
 
-std::vector<Index> greedy
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& candidates,
-    double tolerance
-)
+std::vector<Index> greedy(
+    KernelType type, double radius, const ControlPoints& candidates,
+    double tolerance)
 {
     // In double: that is what was published, and fast enough
     const Matrix G = gramMatrix(type, radius, candidates).cast<double>();
@@ -667,14 +612,9 @@ std::vector<Index> greedy
                 const Vector3& x = candidates[p].position;
                 return std::vector<double>{x[0], x[1], x[2]};
             };
-            if
-            (
-                !taken
-             && (
-                    error > largest
-                 || (worst >= 0 && error == largest && key(i) < key(worst))
-                )
-            )
+            if (!taken
+                && (error > largest
+                    || (worst >= 0 && error == largest && key(i) < key(worst))))
             {
                 largest = error;
                 worst = i;
@@ -701,7 +641,7 @@ std::vector<Index> greedy
                 A(i, j) = G(unknowns[i], unknowns[j]);
             }
         }
-        residual = g - columns*A.partialPivLu().solve(b);
+        residual = g - columns * A.partialPivLu().solve(b);
     }
 }
 

@@ -28,32 +28,29 @@ using namespace morph;
 
 // True if deviation <= bound; the largest deviation of each property is printed
 // when all tests have run, so that the margin can be seen
-testing::AssertionResult within
-(
-    const std::string& property,
-    double deviation,
-    double bound
-);
+testing::AssertionResult
+within(const std::string& property, double deviation, double bound);
 
 
 // The same numbers on every machine
 class Random
 {
 public:
-
-    explicit Random(unsigned seed) : engine_(seed) {}
+    explicit Random(unsigned seed)
+    : engine_(seed)
+    {
+    }
 
     double uniform(double low = 0, double high = 1);
     Index below(Index n);
-    Vector3 inBox();        // in [-1,1]^3
-    Vector3 direction();    // of unit length
+    Vector3 inBox();     // in [-1,1]^3
+    Vector3 direction(); // of unit length
     std::vector<Index> permutation(Index n);
 
     // In [0,1]^dimension (third coordinate 0.3 in 2D), further apart than given
     std::vector<Vector3> pointsApart(Index n, int dimension, double distance);
 
 private:
-
     std::mt19937 engine_;
 };
 
@@ -87,12 +84,8 @@ std::vector<KernelType> positiveDefiniteKernels();
 double moderateRadius(KernelType type);
 
 // The interpolant through all points, none left out
-RbfInterpolant throughAll
-(
-    const Kernel& kernel,
-    Polynomial polynomial,
-    const ControlPoints& points
-);
+RbfInterpolant throughAll(
+    const Kernel& kernel, Polynomial polynomial, const ControlPoints& points);
 
 
 // Independent computations in long double: nothing in here calls the code
@@ -119,9 +112,9 @@ struct Field
     KernelType type;
     double radius;
     Columns centres;
-    RealMatrix weights;         // n x 3
+    RealMatrix weights; // n x 3
     std::vector<Vector3> axes;
-    RealMatrix coefficients;    // (1 + number of axes) x 3, or none
+    RealMatrix coefficients; // (1 + number of axes) x 3, or none
 
     Vectors operator()(const Vectors& x) const;
 };
@@ -138,13 +131,9 @@ Field gram(KernelType type, double radius, const ControlPoints& points);
 Field paper(KernelType type, double radius, const ControlPoints& points);
 
 // [G B; B^T 0] with the polynomials 1 and axis_m . x
-Field augmented
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& points,
-    const std::vector<Vector3>& axes
-);
+Field augmented(
+    KernelType type, double radius, const ControlPoints& points,
+    const std::vector<Vector3>& axes);
 
 // |g_i - C_i^T s(x_i)|
 std::vector<double> errors(const ControlPoints& points, const Vectors& s);
@@ -153,13 +142,9 @@ std::vector<double> errors(const ControlPoints& points, const Vectors& s);
 // solved anew, then the point of the largest error joins, of equals the first
 // by position; until no error exceeds the tolerance [m]. Indices in the order
 // of selection.
-std::vector<Index> greedy
-(
-    KernelType type,
-    double radius,
-    const ControlPoints& candidates,
-    double tolerance
-);
+std::vector<Index> greedy(
+    KernelType type, double radius, const ControlPoints& candidates,
+    double tolerance);
 
 } // namespace reference
 

@@ -30,10 +30,8 @@ struct Motion
 
     Cubic cubic() const
     {
-        return movingVolume
-        (
-            before[0], before[1], before[2], after[0], after[1], after[2]
-        );
+        return movingVolume(
+            before[0], before[1], before[2], after[0], after[1], after[2]);
     }
 
     long double volume(const long double t) const
@@ -43,13 +41,12 @@ struct Motion
         {
             for (int k = 0; k < 3; ++k)
             {
-                e[i][k] = (1 - t)*before[i][k] + t*after[i][k];
+                e[i][k] = (1 - t) * before[i][k] + t * after[i][k];
             }
         }
-        return
-            e[0][0]*(e[1][1]*e[2][2] - e[1][2]*e[2][1])
-          - e[0][1]*(e[1][0]*e[2][2] - e[1][2]*e[2][0])
-          + e[0][2]*(e[1][0]*e[2][1] - e[1][1]*e[2][0]);
+        return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1])
+            - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0])
+            + e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     }
 
     // Size of the terms that cancel in a volume
@@ -70,15 +67,15 @@ long double walked(const Motion& motion, const int steps)
 {
     for (int i = 1; i <= steps; ++i)
     {
-        long double low = (i - 1)/(long double)(steps);
-        long double high = i/(long double)(steps);
+        long double low = (i - 1) / (long double)(steps);
+        long double high = i / (long double)(steps);
         if (motion.volume(high) > 0)
         {
             continue;
         }
         for (int k = 0; k < 100; ++k)
         {
-            const long double middle = 0.5L*(low + high);
+            const long double middle = 0.5L * (low + high);
             (motion.volume(middle) > 0 ? low : high) = middle;
         }
         return low;
@@ -99,7 +96,7 @@ Motion random(std::mt19937& generator, const double amplitude)
             {
                 motion.before[i][k] = normal(generator);
                 motion.after[i][k] =
-                    motion.before[i][k] + amplitude*normal(generator);
+                    motion.before[i][k] + amplitude * normal(generator);
             }
         }
     } while (motion.volume(0) < 0.05);
@@ -118,10 +115,9 @@ TEST(MovingTetrahedron, coefficientsGiveTheDeterminant)
         const Cubic p = motion.cubic();
         for (const double t : {0.0, 0.1, 0.5, 0.9, 1.0})
         {
-            EXPECT_NEAR
-            (
-                value(p, t), double(motion.volume(t)), 20*eps*motion.scale()
-            );
+            EXPECT_NEAR(
+                value(p, t), double(motion.volume(t)),
+                20 * eps * motion.scale());
         }
     }
 }
@@ -134,11 +130,9 @@ TEST(MovingTetrahedron, swappedEdgesChangeTheSignAndNothingElse)
     {
         const Motion m = random(generator, 1);
         const Cubic p = m.cubic();
-        const Cubic q = movingVolume
-        (
-            m.before[1], m.before[0], m.before[2],
-            m.after[1], m.after[0], m.after[2]
-        );
+        const Cubic q = movingVolume(
+            m.before[1], m.before[0], m.before[2], m.after[1], m.after[0],
+            m.after[2]);
         for (int i = 0; i < 4; ++i)
         {
             EXPECT_EQ(p[i], -q[i]);
@@ -153,7 +147,7 @@ TEST(MovingTetrahedron, rootIsTheFirstThatAWalkFinds)
     int broken = 0, whole = 0, differs = 0;
     for (int n = 0; n < 3000; ++n)
     {
-        const Motion motion = random(generator, n%3 == 0 ? 0.3 : 1.5);
+        const Motion motion = random(generator, n % 3 == 0 ? 0.3 : 1.5);
         const double root = positiveUpTo(motion.cubic());
         const long double walk = walked(motion, 2000);
         (walk == noRoot ? whole : broken) += 1;
@@ -163,23 +157,20 @@ TEST(MovingTetrahedron, rootIsTheFirstThatAWalkFinds)
         {
             ++differs;
             EXPECT_LT(root, walk);
-            EXPECT_LT
-            (
-                std::abs(double(motion.volume(root))), 100*eps*motion.scale()
-            );
+            EXPECT_LT(
+                std::abs(double(motion.volume(root))),
+                100 * eps * motion.scale());
         }
         else if (walk != noRoot)
         {
             // As sharp as the slope of the volume allows
             const double h = 1e-6;
-            const double slope = std::abs
-            (
-                double(motion.volume(root + h) - motion.volume(root - h))/(2*h)
-            );
-            EXPECT_NEAR
-            (
-                root, double(walk), 4*eps + 100*eps*motion.scale()/slope
-            );
+            const double slope = std::abs(
+                double(motion.volume(root + h) - motion.volume(root - h))
+                / (2 * h));
+            EXPECT_NEAR(
+                root, double(walk),
+                4 * eps + 100 * eps * motion.scale() / slope);
         }
     }
     EXPECT_GT(broken, 500);
@@ -199,7 +190,7 @@ TEST(MovingTetrahedron, allIsPositiveUpToTheRoot)
         EXPECT_GT(value(p, root), 0);
         for (int i = 0; i < 50; ++i)
         {
-            EXPECT_GT(value(p, root*i/50), 0);
+            EXPECT_GT(value(p, root * i / 50), 0);
         }
     }
 }
@@ -213,13 +204,14 @@ TEST(MovingTetrahedron, whatIsSurelyPositiveIsPositiveUpToThere)
     {
         const Cubic p = random(generator, 1.5).cubic();
         const double root = std::min(1.0, positiveUpTo(p));
-        EXPECT_FALSE(surelyPositive(p, std::min(1.0, 1.01*root)) && root < 0.9);
-        sure += surelyPositive(p, 0.5*root);
-        if (surelyPositive(p, 0.5*root))
+        EXPECT_FALSE(
+            surelyPositive(p, std::min(1.0, 1.01 * root)) && root < 0.9);
+        sure += surelyPositive(p, 0.5 * root);
+        if (surelyPositive(p, 0.5 * root))
         {
             for (int i = 0; i <= 20; ++i)
             {
-                EXPECT_GT(value(p, 0.5*root*i/20), 0);
+                EXPECT_GT(value(p, 0.5 * root * i / 20), 0);
             }
         }
     }
@@ -237,11 +229,10 @@ TEST(MovingTetrahedron, linearVolumeHasItsExactRoot)
         motion.before[0] = motion.after[0] = Vector3(1, 0, 0);
         motion.before[1] = motion.after[1] = Vector3(0, 1, 0);
         motion.before[2] = Vector3(0.3, 0.2, 1);
-        motion.after[2] = Vector3(0.3, 0.2, 1 - 1/target);
-        EXPECT_NEAR
-        (
-            positiveUpTo(motion.cubic()), target, 4*eps*(1 + 1/target)*target
-        );
+        motion.after[2] = Vector3(0.3, 0.2, 1 - 1 / target);
+        EXPECT_NEAR(
+            positiveUpTo(motion.cubic()), target,
+            4 * eps * (1 + 1 / target) * target);
     }
 }
 
@@ -251,7 +242,7 @@ TEST(MovingTetrahedron, doubleRootIsFoundOrIsPositiveByRoundOff)
 {
     for (const double target : {0.25, 0.3, 0.5, 0.7})
     {
-        const double end = 1 - 1/target;
+        const double end = 1 - 1 / target;
         Motion motion;
         motion.before[0] = Vector3(1, 0, 0);
         motion.after[0] = Vector3(end, 0, 0);
@@ -273,7 +264,7 @@ TEST(MovingTetrahedron, tripleRootIsFound)
         for (int i = 0; i < 3; ++i)
         {
             motion.before[i] = Vector3::Unit(i);
-            motion.after[i] = (1 - 1/target)*Vector3::Unit(i);
+            motion.after[i] = (1 - 1 / target) * Vector3::Unit(i);
         }
         EXPECT_NEAR(positiveUpTo(motion.cubic()), target, 2e-5);
     }

@@ -28,10 +28,10 @@ TEST(AffineBasis, isOneAtItsNodeAndZeroAtTheOthers)
         Random random(41);
         const AffineBasis basis(randomNodes(random, n));
         ASSERT_EQ(basis.size(), n);
-        EXPECT_LT
-        (
-            (basis.values(basis.nodes()) - Matrix::Identity(n, n)).norm(), 1e-13
-        )   << n << " nodes";
+        EXPECT_LT(
+            (basis.values(basis.nodes()) - Matrix::Identity(n, n)).norm(),
+            1e-13)
+            << n << " nodes";
     }
 }
 
@@ -44,11 +44,9 @@ TEST(AffineBasis, ofFourNodesReproducesEveryAffineFunction)
     const Eigen::RowVector3d b(1, -2, 3);
     const Columns x = rows(random.pointsApart(50, 3, 0));
     const auto affine = [&](const Columns& y)
-    {
-        return Matrix((y*A).rowwise() + b);
-    };
+    { return Matrix((y * A).rowwise() + b); };
     const Matrix v = affine(basis.nodes());
-    EXPECT_LT((basis.values(x)*v - affine(x)).norm(), 1e-12);
+    EXPECT_LT((basis.values(x) * v - affine(x)).norm(), 1e-12);
     EXPECT_LT((basis.gradient(v) - A).norm(), 1e-12);
 }
 
@@ -70,29 +68,27 @@ TEST(AffineBasis, ofFewerNodesIsConstantNormalToTheirSpan)
         else if (n == 3)
         {
             normal = Vector3(nodes.row(1) - nodes.row(0))
-               .cross(Vector3(nodes.row(2) - nodes.row(0)));
+                         .cross(Vector3(nodes.row(2) - nodes.row(0)));
         }
         normal.normalize();
 
         const Columns x = rows(random.pointsApart(20, 3, 0));
-        const Columns shifted = x.rowwise() + 2*normal.transpose();
+        const Columns shifted = x.rowwise() + 2 * normal.transpose();
         EXPECT_LT((basis.values(x) - basis.values(shifted)).norm(), 1e-12);
-        EXPECT_LT
-        (
-            (basis.values(x).rowwise().sum().array() - 1).matrix().norm(), 1e-12
-        );
+        EXPECT_LT(
+            (basis.values(x).rowwise().sum().array() - 1).matrix().norm(),
+            1e-12);
 
         // In the span, edges are combined as their ends are
-        const Matrix mix = Matrix::Constant(1, n, 1.0/n);
-        const Columns middle = mix*nodes;
+        const Matrix mix = Matrix::Constant(1, n, 1.0 / n);
+        const Columns middle = mix * nodes;
         EXPECT_LT((basis.values(middle) - mix).norm(), 1e-13);
 
         // And the distance grows along the normal alone
         EXPECT_NEAR(basis.distance(middle.row(0)), 0, 1e-14);
-        EXPECT_NEAR
-        (
-            basis.distance(middle.row(0).transpose() + 0.7*normal), 0.7, 1e-13
-        );
+        EXPECT_NEAR(
+            basis.distance(middle.row(0).transpose() + 0.7 * normal), 0.7,
+            1e-13);
     }
 }
 

@@ -24,22 +24,17 @@ struct Outcome
 };
 
 
-Outcome outcomeOf
-(
-    Algorithm algorithm,
-    const ControlPoints& candidates,
-    double restartFraction = 0.1
-)
+Outcome outcomeOf(
+    Algorithm algorithm, const ControlPoints& candidates,
+    double restartFraction = 0.1)
 {
     SelectionSettings settings;
     settings.algorithm = algorithm;
     settings.tolerance = 5e-2;
     settings.pointsPerSweep = 1;
     settings.restartFraction = restartFraction;
-    GreedySelection selection
-    (
-        Kernel(KernelType::wendlandC2, 1.0), Polynomial::none, settings
-    );
+    GreedySelection selection(
+        Kernel(KernelType::wendlandC2, 1.0), Polynomial::none, settings);
     SerialCommunicator communicator;
     const SelectionResult result = selection.select(candidates, communicator);
     return {result, selection.selected(), selection.interpolant()};
@@ -61,18 +56,13 @@ TEST(Algorithms, selectTheSamePointsOneByOne)
     for (const unsigned seed : {1u, 2u, 3u})
     {
         const ControlPoints candidates = mixture(seed);
-        std::vector<Index> expected = reference::greedy
-        (
+        std::vector<Index> expected = reference::greedy(
             KernelType::wendlandC2, 1.0, candidates,
-            5e-2*largestDisplacement(candidates)
-        );
+            5e-2 * largestDisplacement(candidates));
         std::sort(expected.begin(), expected.end());
         EXPECT_GT(expected.size(), 30u);
-        for
-        (
-            const Algorithm a
-          : {Algorithm::standard, Algorithm::schur, Algorithm::incremental}
-        )
+        for (const Algorithm a :
+             {Algorithm::standard, Algorithm::schur, Algorithm::incremental})
         {
             EXPECT_EQ(outcomeOf(a, candidates).selected, expected);
         }
@@ -84,17 +74,15 @@ TEST(Algorithms, giveTheSameField)
 {
     const ControlPoints candidates = mixture(4);
     const Vectors x = positionRows(mixture(5));
-    const Vectors expected =
-        outcomeOf(Algorithm::incremental, candidates).s(x);
+    const Vectors expected = outcomeOf(Algorithm::incremental, candidates).s(x);
     for (const Algorithm a : {Algorithm::standard, Algorithm::schur})
     {
         const Vectors found = outcomeOf(a, candidates).s(x);
-        EXPECT_TRUE(within
-        (
+        EXPECT_TRUE(within(
             "field of the reference algorithms",
-            largestDifference(found, expected)/largestDisplacement(candidates),
-            1e-10
-        ));
+            largestDifference(found, expected)
+                / largestDisplacement(candidates),
+            1e-10));
     }
 }
 
@@ -106,11 +94,9 @@ TEST(Algorithms, schurIsIndependentOfItsRestarts)
         outcomeOf(Algorithm::schur, candidates, 0.01).selected;
     for (const double fraction : {0.1, 0.3, 0.6, 100.0})
     {
-        EXPECT_EQ
-        (
+        EXPECT_EQ(
             outcomeOf(Algorithm::schur, candidates, fraction).selected,
-            expected
-        );
+            expected);
     }
 }
 
@@ -123,13 +109,12 @@ TEST(Algorithms, referencesFollowANewDisplacement)
         SelectionSettings settings;
         settings.algorithm = a;
         settings.tolerance = 5e-2;
-        GreedySelection selection
-        (
-            Kernel(KernelType::wendlandC2, 1.0), Polynomial::none, settings
-        );
+        GreedySelection selection(
+            Kernel(KernelType::wendlandC2, 1.0), Polynomial::none, settings);
         SerialCommunicator communicator;
         selection.select(candidates, communicator);
-        const Vectors before = selection.interpolant()(positionRows(candidates));
+        const Vectors before =
+            selection.interpolant()(positionRows(candidates));
         for (ControlPoint& p : candidates)
         {
             p.value *= -2;
@@ -138,7 +123,7 @@ TEST(Algorithms, referencesFollowANewDisplacement)
             selection.select(candidates, communicator);
         const Vectors after = selection.interpolant()(positionRows(candidates));
         EXPECT_EQ(again.added, 0);
-        EXPECT_LT((after + 2*before).cwiseAbs().maxCoeff(), 1e-11);
+        EXPECT_LT((after + 2 * before).cwiseAbs().maxCoeff(), 1e-11);
     }
 }
 
@@ -164,34 +149,26 @@ TEST(Algorithms, referencesRefuseWhatTheyDoNotKnow)
     SelectionSettings settings;
     settings.algorithm = Algorithm::schur;
     const Kernel kernel(KernelType::wendlandC2, 1);
-    EXPECT_THROW
-    (
+    EXPECT_THROW(
         GreedySelection(kernel, Polynomial::linear, settings),
-        std::invalid_argument
-    );
+        std::invalid_argument);
     settings.all = true;
-    EXPECT_THROW
-    (
+    EXPECT_THROW(
         GreedySelection(kernel, Polynomial::none, settings),
-        std::invalid_argument
-    );
+        std::invalid_argument);
 }
 
 
 TEST(Algorithms, schurIsRefusedWhereItsMatrixDoesNotFit)
 {
     // 8 N^2 bytes: so many points that they need twice what there is
-    const Index n = Index(std::sqrt(2*availableMemory()/8));
-    ControlPoints candidates
-    (
-        n, ControlPoint::prescribed(Vector3(0, 0, 0), Vector3(1, 0, 0))
-    );
+    const Index n = Index(std::sqrt(2 * availableMemory() / 8));
+    ControlPoints candidates(
+        n, ControlPoint::prescribed(Vector3(0, 0, 0), Vector3(1, 0, 0)));
     SelectionSettings settings;
     settings.algorithm = Algorithm::schur;
-    GreedySelection selection
-    (
-        Kernel(KernelType::wendlandC2, 1), Polynomial::none, settings
-    );
+    GreedySelection selection(
+        Kernel(KernelType::wendlandC2, 1), Polynomial::none, settings);
     SerialCommunicator communicator;
     try
     {
@@ -209,19 +186,14 @@ TEST(Algorithms, schurIsRefusedWhereItsMatrixDoesNotFit)
 
 TEST(Algorithms, refuseDisplacementsThatAreNotFinite)
 {
-    for
-    (
-        const double bad
-      : {std::nan(""), std::numeric_limits<double>::infinity()}
-    )
+    for (const double bad :
+         {std::nan(""), std::numeric_limits<double>::infinity()})
     {
         ControlPoints candidates = mixture(9);
         candidates[17].value[0] = bad;
-        EXPECT_THROW
-        (
+        EXPECT_THROW(
             outcomeOf(Algorithm::incremental, candidates),
-            std::invalid_argument
-        );
+            std::invalid_argument);
     }
 }
 
@@ -236,18 +208,16 @@ TEST(VectorMath, agreesWithTheCLibrary)
     {
         const double x = -std::exp(random.uniform(-30, 6.5));
         const long double e = expl(x);
-        worstExponential = std::max
-        (
+        worstExponential = std::max(
             worstExponential,
-            double(fabsl((vectorMath::exponential(x) - e)/e))
-        );
+            double(fabsl((vectorMath::exponential(x) - e) / e)));
         const double y = std::exp(random.uniform(-700, 700));
         const long double l = logl(y);
-        worstLogarithm = std::max
-        (
+        worstLogarithm = std::max(
             worstLogarithm,
-            double(fabsl(vectorMath::logarithm(y) - l)/std::max(1.0L, fabsl(l)))
-        );
+            double(
+                fabsl(vectorMath::logarithm(y) - l)
+                / std::max(1.0L, fabsl(l))));
     }
     EXPECT_TRUE(within("exponential", worstExponential, 5e-16));
     EXPECT_TRUE(within("logarithm", worstLogarithm, 5e-16));

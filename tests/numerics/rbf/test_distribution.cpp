@@ -38,10 +38,10 @@ std::vector<NamedDeal> deals(const ControlPoints& candidates)
         for (Index i = 0; i < n; ++i)
         {
             const double x = candidates[i].position.x();
-            inTurn.push_back(i%ranks);
+            inTurn.push_back(i % ranks);
             atRandom.push_back(random.below(ranks));
-            byPlace.push_back(std::min(ranks - 1, std::max(0, int(x*ranks))));
-            firstIsEmpty.push_back(ranks > 1 ? 1 + i%(ranks - 1) : 0);
+            byPlace.push_back(std::min(ranks - 1, std::max(0, int(x * ranks))));
+            firstIsEmpty.push_back(ranks > 1 ? 1 + i % (ranks - 1) : 0);
             oneHasAll.push_back(ranks - 1);
         }
         const std::string name = std::to_string(ranks) + " ranks, ";
@@ -67,29 +67,20 @@ struct Outcome
 
 // The outcomes of all ranks after selections for each of the displacements,
 // which are those of the same candidates
-std::vector<Outcome> outcomes
-(
-    const Kernel& kernel,
-    Polynomial polynomial,
+std::vector<Outcome> outcomes(
+    const Kernel& kernel, Polynomial polynomial,
     const SelectionSettings& settings,
-    const std::vector<ControlPoints>& displacements,
-    const NamedDeal& deal
-)
+    const std::vector<ControlPoints>& displacements, const NamedDeal& deal)
 {
     std::vector<Outcome> all(deal.ranks);
-    onRanks
-    (
+    onRanks(
         deal.ranks,
         [&](Communicator& communicator)
         {
             // Each rank has its candidates in an order of its own
             std::vector<Index> mine;
-            for
-            (
-                const Index i
-              : Random(82 + communicator.rank())
-                   .permutation(deal.deal.size())
-            )
+            for (const Index i :
+                 Random(82 + communicator.rank()).permutation(deal.deal.size()))
             {
                 if (deal.deal[i] == communicator.rank())
                 {
@@ -115,8 +106,7 @@ std::vector<Outcome> outcomes
             {
                 outcome.selected.push_back(points.at(i).position);
             }
-        }
-    );
+        });
     return all;
 }
 
@@ -127,13 +117,10 @@ bool sameBits(const Columns& a, const Columns& b)
 }
 
 
-void expectTheSameOnAnyRanks
-(
-    const Kernel& kernel,
-    Polynomial polynomial,
+void expectTheSameOnAnyRanks(
+    const Kernel& kernel, Polynomial polynomial,
     const SelectionSettings& settings,
-    const std::vector<ControlPoints>& displacements
-)
+    const std::vector<ControlPoints>& displacements)
 {
     const std::vector<NamedDeal> all = deals(displacements[0]);
     const Outcome serial =
@@ -144,11 +131,8 @@ void expectTheSameOnAnyRanks
     {
         SCOPED_TRACE(nameOf(kernel.type()) + ", " + deal.name);
         std::vector<Vector3> selected;
-        for
-        (
-            const Outcome& outcome
-          : outcomes(kernel, polynomial, settings, displacements, deal)
-        )
+        for (const Outcome& outcome :
+             outcomes(kernel, polynomial, settings, displacements, deal))
         {
             EXPECT_TRUE(sameBits(outcome.centres, serial.centres));
             EXPECT_TRUE(sameBits(outcome.weights, serial.weights));
@@ -163,11 +147,9 @@ void expectTheSameOnAnyRanks
             EXPECT_EQ(r.largestDisplacement, s.largestDisplacement);
             EXPECT_EQ(r.tolerance, s.tolerance);
             EXPECT_EQ(r.roundOff, s.roundOff);
-            selected.insert
-            (
-                selected.end(),
-                outcome.selected.begin(), outcome.selected.end()
-            );
+            selected.insert(
+                selected.end(), outcome.selected.begin(),
+                outcome.selected.end());
         }
 
         // Each selected point is one rank's
@@ -197,13 +179,11 @@ ControlPoints displaced(ControlPoints points, double frequency)
     for (ControlPoint& p : points)
     {
         const Vector3& x = p.position;
-        const Vector3 s
-        (
-            std::sin(frequency*x.x() + x.y()),
-            std::cos(3*x.z() - 2*x.x()),
-            std::sin(frequency*x.x()*x.y())
-        );
-        p.value.head(p.k) = p.directions.leftCols(p.k).transpose()*s;
+        const Vector3 s(
+            std::sin(frequency * x.x() + x.y()),
+            std::cos(3 * x.z() - 2 * x.x()),
+            std::sin(frequency * x.x() * x.y()));
+        p.value.head(p.k) = p.directions.leftCols(p.k).transpose() * s;
     }
     return points;
 }
@@ -218,11 +198,9 @@ TEST(Distribution, ofMovingPointsDoesNotMatter)
         displaced(randomControlPoints(random, {3, 400, 0, 0}), 4);
     for (const KernelType type : {KernelType::wendlandC2, KernelType::gaussian})
     {
-        expectTheSameOnAnyRanks
-        (
+        expectTheSameOnAnyRanks(
             Kernel(type, moderateRadius(type)), Polynomial::none,
-            settingsOf(5e-2), {candidates}
-        );
+            settingsOf(5e-2), {candidates});
     }
 }
 
@@ -234,11 +212,9 @@ TEST(Distribution, ofMovingAndSlidingPointsDoesNotMatter)
         displaced(randomControlPoints(random, {3, 200, 120, 40}), 4);
     for (const Index pointsPerSweep : {0, 1, 10})
     {
-        expectTheSameOnAnyRanks
-        (
+        expectTheSameOnAnyRanks(
             Kernel(KernelType::wendlandC2, 0.8), Polynomial::none,
-            settingsOf(5e-2, pointsPerSweep), {candidates}
-        );
+            settingsOf(5e-2, pointsPerSweep), {candidates});
     }
 }
 
@@ -248,24 +224,15 @@ TEST(Distribution, withAPolynomialDoesNotMatter)
     Random random(85);
     for (const int dimension : {2, 3})
     {
-        const ControlPoints candidates = displaced
-        (
-            randomControlPoints(random, {dimension, 150, 80, 20}), 4
-        );
-        for
-        (
-            const KernelType type
-          : {
-                KernelType::wendlandC4, KernelType::multiQuadric,
-                KernelType::thinPlate
-            }
-        )
+        const ControlPoints candidates =
+            displaced(randomControlPoints(random, {dimension, 150, 80, 20}), 4);
+        for (const KernelType type :
+             {KernelType::wendlandC4, KernelType::multiQuadric,
+              KernelType::thinPlate})
         {
-            expectTheSameOnAnyRanks
-            (
+            expectTheSameOnAnyRanks(
                 Kernel(type, moderateRadius(type)), Polynomial::linear,
-                settingsOf(5e-2), {candidates}
-            );
+                settingsOf(5e-2), {candidates});
         }
     }
 }
@@ -278,11 +245,9 @@ TEST(Distribution, ofAllPointsDoesNotMatter)
         displaced(randomControlPoints(random, {3, 200, 120, 40}), 4);
     SelectionSettings settings;
     settings.all = true;
-    expectTheSameOnAnyRanks
-    (
-        Kernel(KernelType::wendlandC2, 0.5), Polynomial::none,
-        settings, {candidates}
-    );
+    expectTheSameOnAnyRanks(
+        Kernel(KernelType::wendlandC2, 0.5), Polynomial::none, settings,
+        {candidates});
 }
 
 
@@ -292,11 +257,9 @@ TEST(Distribution, doesNotMatterWhenOtherDisplacementsFollow)
     const ControlPoints points = randomControlPoints(random, {3, 150, 80, 30});
     for (const Polynomial polynomial : {Polynomial::none, Polynomial::linear})
     {
-        expectTheSameOnAnyRanks
-        (
+        expectTheSameOnAnyRanks(
             Kernel(KernelType::wendlandC2, 0.8), polynomial, settingsOf(5e-2),
-            {displaced(points, 2), displaced(points, 5), displaced(points, 1)}
-        );
+            {displaced(points, 2), displaced(points, 5), displaced(points, 1)});
     }
 }
 
@@ -308,22 +271,15 @@ TEST(Distribution, doesNotMatterWhereErrorsTieExactly)
     {
         for (int j = 0; j <= 12; ++j)
         {
-            candidates.push_back
-            (
-                ControlPoint::prescribed
-                (
-                    Vector3(i, j, 0)/12, Vector3(i%2, j%2, (i + j)%2)
-                )
-            );
+            candidates.push_back(ControlPoint::prescribed(
+                Vector3(i, j, 0) / 12, Vector3(i % 2, j % 2, (i + j) % 2)));
         }
     }
     for (const Index pointsPerSweep : {0, 1})
     {
-        expectTheSameOnAnyRanks
-        (
+        expectTheSameOnAnyRanks(
             Kernel(KernelType::wendlandC2, 0.5), Polynomial::none,
-            settingsOf(1e-2, pointsPerSweep), {candidates}
-        );
+            settingsOf(1e-2, pointsPerSweep), {candidates});
     }
 }
 
@@ -336,17 +292,15 @@ TEST(Distribution, doesNotMatterWherePointsAreRejected)
     for (Index i = 0; i < 90; ++i)
     {
         ControlPoint p = candidates[i];
-        p.position += 1e-10*random.direction();
+        p.position += 1e-10 * random.direction();
         p.value *= 0.9;
         candidates.push_back(p);
     }
     for (const Polynomial polynomial : {Polynomial::none, Polynomial::linear})
     {
-        expectTheSameOnAnyRanks
-        (
+        expectTheSameOnAnyRanks(
             Kernel(KernelType::wendlandC2, 0.8), polynomial, settingsOf(1e-3),
-            {candidates}
-        );
+            {candidates});
     }
 }
 
@@ -370,8 +324,7 @@ TEST(Distribution, doesNotMatterWhereASelectionIsRestored)
         {
             std::vector<Columns> weights(deal.ranks);
             std::vector<std::vector<Vector3>> orders(deal.ranks);
-            onRanks
-            (
+            onRanks(
                 deal.ranks,
                 [&](Communicator& communicator)
                 {
@@ -384,15 +337,12 @@ TEST(Distribution, doesNotMatterWhereASelectionIsRestored)
                             mine.push_back(candidates[i]);
                         }
                     }
-                    GreedySelection selection
-                    (
-                        kernel, polynomial, settingsOf(1e-2)
-                    );
+                    GreedySelection selection(
+                        kernel, polynomial, settingsOf(1e-2));
                     selection.restore(positions, mine, communicator);
                     weights[rank] = selection.interpolant().weights();
                     orders[rank] = selection.selectedPositions();
-                }
-            );
+                });
             if (serial.rows() == 0)
             {
                 serial = weights[0];
@@ -420,20 +370,16 @@ TEST(Distribution, everyRankRefusesWhatOneWouldRefuse)
         const ControlPoints moving =
             randomControlPoints(random, {2, coplanar ? 15 : 0, 0, 0});
         std::atomic<int> refused(0);
-        onRanks
-        (
+        onRanks(
             3,
             [&](Communicator& communicator)
             {
-                GreedySelection selection
-                (
+                GreedySelection selection(
                     Kernel(KernelType::thinPlate, 1), Polynomial::linear,
-                    settingsOf(1e-3)
-                );
-                const ControlPoints mine =
-                    communicator.rank() == 0 ? moving
-                  : communicator.rank() == 1 ? sliding
-                  : ControlPoints();
+                    settingsOf(1e-3));
+                const ControlPoints mine = communicator.rank() == 0 ? moving
+                    : communicator.rank() == 1                      ? sliding
+                                               : ControlPoints();
                 try
                 {
                     selection.select(mine, communicator);
@@ -442,8 +388,7 @@ TEST(Distribution, everyRankRefusesWhatOneWouldRefuse)
                 {
                     ++refused;
                 }
-            }
-        );
+            });
         EXPECT_EQ(refused, 3);
     }
 }
@@ -456,8 +401,7 @@ TEST(Distribution, everyRankDoesTheSameCollectiveOperations)
         displaced(randomControlPoints(random, {3, 300, 100, 0}), 4);
     std::vector<long> operations(4, 0);
     Index sweeps = 0;
-    onRanks
-    (
+    onRanks(
         4,
         [&](Communicator& communicator)
         {
@@ -465,24 +409,21 @@ TEST(Distribution, everyRankDoesTheSameCollectiveOperations)
             for (std::size_t i = 0; i < candidates.size(); ++i)
             {
                 // The last rank has none
-                if (int(i%3) == communicator.rank())
+                if (int(i % 3) == communicator.rank())
                 {
                     mine.push_back(candidates[i]);
                 }
             }
-            GreedySelection selection
-            (
+            GreedySelection selection(
                 Kernel(KernelType::wendlandC2, 0.8), Polynomial::linear,
-                settingsOf(1e-2)
-            );
+                settingsOf(1e-2));
             const SelectionResult r = selection.select(mine, communicator);
             operations[communicator.rank()] = communicator.operations();
             if (communicator.rank() == 0)
             {
                 sweeps = r.sweeps;
             }
-        }
-    );
+        });
     for (const long n : operations)
     {
         EXPECT_EQ(n, operations[0]);
@@ -490,7 +431,7 @@ TEST(Distribution, everyRankDoesTheSameCollectiveOperations)
 
     // The worst, a histogram and the list of each sweep, some lists in two
     // parts, and a few at the beginning and the end
-    EXPECT_LE(operations[0], 3.5*sweeps + 10);
+    EXPECT_LE(operations[0], 3.5 * sweeps + 10);
 }
 
 
@@ -504,8 +445,7 @@ TEST(Distribution, allRanksTogetherSendHardlyMoreThanTheList)
     for (const int ranks : {1, 5})
     {
         std::vector<double> bytes(ranks);
-        onRanks
-        (
+        onRanks(
             ranks,
             [&](Communicator& communicator)
             {
@@ -515,19 +455,16 @@ TEST(Distribution, allRanksTogetherSendHardlyMoreThanTheList)
                 {
                     mine.push_back(candidates[i]);
                 }
-                GreedySelection selection
-                (
+                GreedySelection selection(
                     Kernel(KernelType::wendlandC2, 0.8), Polynomial::none,
-                    settingsOf(2e-3)
-                );
+                    settingsOf(2e-3));
                 const SelectionResult r = selection.select(mine, communicator);
                 bytes[rank] = communicator.bytes();
                 if (rank == 0)
                 {
                     sweeps = r.sweeps;
                 }
-            }
-        );
+            });
         total.push_back(std::accumulate(bytes.begin(), bytes.end(), 0.0));
     }
 
@@ -535,13 +472,8 @@ TEST(Distribution, allRanksTogetherSendHardlyMoreThanTheList)
     // candidate it has, 22 numbers, in each sweep. Dealt in turn, ranks share
     // the cells from which the list takes one candidate each: hence more than
     // one list. Were all to send a whole one, it would be five
-    EXPECT_TRUE
-    (
-        within
-        (
-            "what five ranks send of lists, of what one does",
-            (total[1] - 8*5*86*(sweeps + 1))/(total[0] - 8*86*sweeps),
-            2
-        )
-    );
+    EXPECT_TRUE(within(
+        "what five ranks send of lists, of what one does",
+        (total[1] - 8 * 5 * 86 * (sweeps + 1)) / (total[0] - 8 * 86 * sweeps),
+        2));
 }

@@ -15,11 +15,9 @@ using namespace test;
 namespace
 {
 
-const KernelType wendland[4] =
-{
-    KernelType::wendlandC0, KernelType::wendlandC2,
-    KernelType::wendlandC4, KernelType::wendlandC6
-};
+const KernelType wendland[4] = {
+    KernelType::wendlandC0, KernelType::wendlandC2, KernelType::wendlandC4,
+    KernelType::wendlandC6};
 
 
 // The coefficients of the polynomial of degree n through n + 1 values of phi
@@ -31,7 +29,7 @@ std::vector<double> fittedCoefficients(KernelType type, int n)
     reference::RealMatrix V(n + 1, n + 1), values(n + 1, 1);
     for (int i = 0; i <= n; ++i)
     {
-        const double d = 0.5 - 0.5*std::cos(M_PI*(i + 0.5)/(n + 1));
+        const double d = 0.5 - 0.5 * std::cos(M_PI * (i + 0.5) / (n + 1));
         values(i) = kernel(d);
         for (int m = 0; m <= n; ++m)
         {
@@ -58,11 +56,12 @@ double smallestEigenvalue(const Matrix& gram, const Matrix& polynomials)
     {
         Z = Eigen::FullPivLU<Matrix>(polynomials.transpose()).kernel();
         Z = Eigen::HouseholderQR<Matrix>(Z).householderQ()
-           *Matrix::Identity(n, Z.cols());
+            * Matrix::Identity(n, Z.cols());
     }
-    const Matrix projected = Z.transpose()*gram*Z;
+    const Matrix projected = Z.transpose() * gram * Z;
     return Eigen::SelfAdjointEigenSolver<Matrix>(projected)
-       .eigenvalues().minCoeff();
+        .eigenvalues()
+        .minCoeff();
 }
 
 
@@ -93,15 +92,10 @@ TEST(Kernel, wendlandFunctionsFollowFromWendlandsConstruction)
             fittedCoefficients(wendland[k], expected.size() - 1);
         for (std::size_t m = 0; m < expected.size(); ++m)
         {
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "Wendland coefficients",
-                    std::abs(found[m] - double(expected[m])),
-                    1e-5
-                )
-            )   << nameOf(wendland[k]) << ", power " << m;
+            EXPECT_TRUE(within(
+                "Wendland coefficients",
+                std::abs(found[m] - double(expected[m])), 1e-5))
+                << nameOf(wendland[k]) << ", power " << m;
         }
     }
 }
@@ -115,19 +109,15 @@ TEST(Kernel, valuesAgreeWithTheFormulasInLongDouble)
         const Kernel kernel(type, r0);
         for (int i = 0; i <= 3000; ++i)
         {
-            const double r = 3*r0*i/3000;
+            const double r = 3 * r0 * i / 3000;
             const double expected =
-                double(reference::phi(type, reference::Real(r)/r0));
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "kernel value",
-                    std::abs(kernel(r) - expected)
-                   /std::max(1.0, std::abs(expected)),
-                    1e-14
-                )
-            )   << nameOf(type) << " at " << r;
+                double(reference::phi(type, reference::Real(r) / r0));
+            EXPECT_TRUE(within(
+                "kernel value",
+                std::abs(kernel(r) - expected)
+                    / std::max(1.0, std::abs(expected)),
+                1e-14))
+                << nameOf(type) << " at " << r;
         }
     }
 }
@@ -137,10 +127,9 @@ TEST(Kernel, valueAtTheCentreIsThatOfTheFormula)
 {
     for (const KernelType type : allKernels())
     {
-        const double expected =
-            type == KernelType::thinPlate ? 0
-          : type == KernelType::multiQuadric ? -1
-          : 1;
+        const double expected = type == KernelType::thinPlate ? 0
+            : type == KernelType::multiQuadric                ? -1
+                                                              : 1;
         EXPECT_EQ(Kernel(type, 0.4)(0), expected) << nameOf(type);
     }
 }
@@ -153,13 +142,13 @@ TEST(Kernel, compactKernelsAreZeroAtAndBeyondTheSupportRadiusAndOnlyThey)
         for (const double r0 : {1e-6, 0.1, 1.0, 3.7e5})
         {
             const Kernel kernel(type, r0);
-            EXPECT_EQ(kernel.compact(), kernel(1.5*r0) == 0) << nameOf(type);
+            EXPECT_EQ(kernel.compact(), kernel(1.5 * r0) == 0) << nameOf(type);
             if (kernel.compact())
             {
                 EXPECT_EQ(kernel(r0), 0) << nameOf(type);
-                EXPECT_EQ(kernel(r0*(1 + 1e-15)), 0) << nameOf(type);
-                EXPECT_EQ(kernel(1e12*r0), 0) << nameOf(type);
-                EXPECT_GT(kernel(0.99*r0), 0) << nameOf(type);
+                EXPECT_EQ(kernel(r0 * (1 + 1e-15)), 0) << nameOf(type);
+                EXPECT_EQ(kernel(1e12 * r0), 0) << nameOf(type);
+                EXPECT_GT(kernel(0.99 * r0), 0) << nameOf(type);
             }
         }
     }
@@ -174,7 +163,7 @@ TEST(Kernel, theSmallestOddPowerTellsTheSmoothnessAtTheCentre)
     {
         const int k = Kernel(type, 1).smoothness();
         const std::vector<double> c =
-            fittedCoefficients(type, reference::wendland(k/2).size() - 1);
+            fittedCoefficients(type, reference::wendland(k / 2).size() - 1);
         for (int m = 1; m < k; m += 2)
         {
             EXPECT_NEAR(c[m], 0, 1e-5) << nameOf(type) << ", power " << m;
@@ -190,8 +179,8 @@ TEST(Kernel, derivativesUpToTheSmoothnessVanishAtTheSupportRadius)
     for (const KernelType type : wendland)
     {
         const Kernel kernel(type, 1);
-        const double h = 1.0/1024;
-        const double p = std::log2(kernel(1 - 2*h)/kernel(1 - h));
+        const double h = 1.0 / 1024;
+        const double p = std::log2(kernel(1 - 2 * h) / kernel(1 - h));
         EXPECT_GT(p, kernel.smoothness() + 0.9) << nameOf(type);
     }
 }
@@ -202,8 +191,8 @@ TEST(Kernel, secondDerivativeOfThinPlateIsUnboundedAtTheCentre)
     // d^2 log d: slope d (2 log d + 1), curvature 2 log d + 3
     const Kernel kernel(KernelType::thinPlate, 1);
     EXPECT_EQ(kernel.smoothness(), 1);
-    EXPECT_NEAR(kernel(1e-8)/1e-8, 0, 1e-6);
-    EXPECT_NEAR(2*kernel(1e-8)/1e-16, 2*std::log(1e-8), 1e-6);
+    EXPECT_NEAR(kernel(1e-8) / 1e-8, 0, 1e-6);
+    EXPECT_NEAR(2 * kernel(1e-8) / 1e-16, 2 * std::log(1e-8), 1e-6);
 }
 
 
@@ -223,18 +212,15 @@ TEST(Kernel, gramMatrixIsPositiveDefiniteWherePolynomialsOfItsOrderVanish)
         {
             for (const double factor : {0.5, 1.0, 2.0})
             {
-                const Kernel kernel(type, factor*moderateRadius(type));
+                const Kernel kernel(type, factor * moderateRadius(type));
                 const Columns x =
                     rows(Random(7).pointsApart(30, dimension, 0.06));
-                EXPECT_GT
-                (
-                    smallestEigenvalue
-                    (
+                EXPECT_GT(
+                    smallestEigenvalue(
                         kernelMatrix(kernel, x, x),
-                        polynomialsOfOrder(kernel.order(), x, dimension)
-                    ),
-                    1e-13
-                )   << nameOf(type) << ' ' << dimension << "D";
+                        polynomialsOfOrder(kernel.order(), x, dimension)),
+                    1e-13)
+                    << nameOf(type) << ' ' << dimension << "D";
             }
         }
     }
@@ -245,20 +231,18 @@ TEST(Kernel, onlyMultiQuadricAndThinPlateNeedAPolynomial)
 {
     for (const KernelType type : allKernels())
     {
-        EXPECT_EQ
-        (
+        EXPECT_EQ(
             Kernel(type, 1).order(),
-            type == KernelType::multiQuadric ? 1
-          : type == KernelType::thinPlate ? 2
-          : 0
-        );
+            type == KernelType::multiQuadric    ? 1
+                : type == KernelType::thinPlate ? 2
+                                                : 0);
     }
 }
 
 
 TEST(Kernel, noLowerOrderMakesTheConditionalOnesPositiveDefinite)
 {
-    const Columns x = 3*rows(Random(8).pointsApart(30, 3, 0.1));
+    const Columns x = 3 * rows(Random(8).pointsApart(30, 3, 0.1));
     for (const KernelType type : allKernels())
     {
         const Kernel kernel(type, 1);
@@ -266,15 +250,12 @@ TEST(Kernel, noLowerOrderMakesTheConditionalOnesPositiveDefinite)
         {
             continue;
         }
-        EXPECT_LT
-        (
-            smallestEigenvalue
-            (
+        EXPECT_LT(
+            smallestEigenvalue(
                 kernelMatrix(kernel, x, x),
-                polynomialsOfOrder(kernel.order() - 1, x, 3)
-            ),
-            -0.1
-        )   << nameOf(type);
+                polynomialsOfOrder(kernel.order() - 1, x, 3)),
+            -0.1)
+            << nameOf(type);
     }
 }
 
@@ -295,18 +276,14 @@ TEST(Kernel, kernelMatrixHoldsTheValuesOfAllPairs)
             for (Index j = 0; j < b.rows(); ++j)
             {
                 const double d =
-                    (a.row(i) - b.row(j)).norm()/kernel.supportRadius();
+                    (a.row(i) - b.row(j)).norm() / kernel.supportRadius();
                 const double expected = double(reference::phi(type, d));
-                EXPECT_TRUE
-                (
-                    within
-                    (
-                        "kernel matrix",
-                        std::abs(phi(i, j) - expected)
-                       /std::max(1.0, std::abs(expected)),
-                        1e-14
-                    )
-                )   << nameOf(type);
+                EXPECT_TRUE(within(
+                    "kernel matrix",
+                    std::abs(phi(i, j) - expected)
+                        / std::max(1.0, std::abs(expected)),
+                    1e-14))
+                    << nameOf(type);
             }
         }
     }
@@ -319,10 +296,8 @@ TEST(Kernel, refusesARadiusThatIsNoPositiveLength)
     const double infinity = std::numeric_limits<double>::infinity();
     for (const double r0 : {0.0, -1.0, infinity, -infinity, std::nan("")})
     {
-        EXPECT_THROW
-        (
-            Kernel(KernelType::wendlandC2, r0), std::invalid_argument
-        )   << r0;
+        EXPECT_THROW(Kernel(KernelType::wendlandC2, r0), std::invalid_argument)
+            << r0;
     }
 }
 

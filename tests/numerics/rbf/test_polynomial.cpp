@@ -13,20 +13,13 @@ using namespace test;
 namespace
 {
 
-const std::vector<Vector3> axes3D =
-    {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+const std::vector<Vector3> axes3D = {
+    Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
 
 const std::vector<Vector3> axes2D = {Vector3::UnitX(), Vector3::UnitY()};
 
-const Mixture mixtures[] =
-{
-    {3, 40, 0, 0},
-    {3, 20, 15, 10},
-    {3, 5, 20, 10},
-    {2, 35, 0, 0},
-    {2, 15, 15, 0},
-    {2, 4, 15, 5}
-};
+const Mixture mixtures[] = {{3, 40, 0, 0}, {3, 20, 15, 10}, {3, 5, 20, 10},
+                            {2, 35, 0, 0}, {2, 15, 15, 0},  {2, 4, 15, 5}};
 
 
 const std::vector<Vector3>& axesOf(const Mixture& mixture)
@@ -37,9 +30,8 @@ const std::vector<Vector3>& axesOf(const Mixture& mixture)
 
 std::string nameOf(KernelType type, const Mixture& m)
 {
-    return
-        test::nameOf(type) + ", " + std::to_string(m.dimension) + "D, "
-      + std::to_string(m.moving) + " moving points";
+    return test::nameOf(type) + ", " + std::to_string(m.dimension) + "D, "
+        + std::to_string(m.moving) + " moving points";
 }
 
 
@@ -53,7 +45,7 @@ struct Affine
     {
         for (int i = 0; i < 3; ++i)
         {
-            A.col(i) = 0.1*random.inBox();
+            A.col(i) = 0.1 * random.inBox();
         }
         b = random.inBox();
         if (dimension == 2)
@@ -63,22 +55,22 @@ struct Affine
         }
     }
 
-    Vector3 operator()(const Vector3& x) const { return A*x + b; }
+    Vector3 operator()(const Vector3& x) const { return A * x + b; }
 
     Vectors operator()(const Vectors& x) const
     {
-        return (x*A.transpose()).rowwise() + b.transpose();
+        return (x * A.transpose()).rowwise() + b.transpose();
     }
 };
 
 
-template<class Displacement>
+template <class Displacement>
 ControlPoints displaced(ControlPoints points, const Displacement& s)
 {
     for (ControlPoint& p : points)
     {
         p.value.head(p.k) =
-            p.directions.leftCols(p.k).transpose()*s(p.position);
+            p.directions.leftCols(p.k).transpose() * s(p.position);
     }
     return points;
 }
@@ -104,23 +96,17 @@ TEST(Polynomial, affineDisplacementsAreReproducedEverywhere)
             const Affine affine(random, mixture.dimension);
             const ControlPoints points =
                 displaced(randomControlPoints(random, mixture), affine);
-            const RbfInterpolant s = throughAll
-            (
-                Kernel(type, moderateRadius(type)), Polynomial::linear, points
-            );
+            const RbfInterpolant s = throughAll(
+                Kernel(type, moderateRadius(type)), Polynomial::linear, points);
             Vectors probes =
                 rows(random.pointsApart(100, mixture.dimension, 0));
             probes.leftCols(mixture.dimension) *= 3;
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "affine displacement",
-                    largestDifference(s(probes), affine(probes))
-                   /largestDisplacement(points),
-                    1e-11
-                )
-            )   << nameOf(type, mixture);
+            EXPECT_TRUE(within(
+                "affine displacement",
+                largestDifference(s(probes), affine(probes))
+                    / largestDisplacement(points),
+                1e-11))
+                << nameOf(type, mixture);
         }
     }
 }
@@ -138,10 +124,9 @@ TEST(Polynomial, affineDisplacementsNeedNoPointsButTheNodes)
                 displaced(randomControlPoints(random, mixture), affine);
             SelectionSettings settings;
             settings.tolerance = 1e-10;
-            GreedySelection selection
-            (
-                Kernel(type, moderateRadius(type)), Polynomial::linear, settings
-            );
+            GreedySelection selection(
+                Kernel(type, moderateRadius(type)), Polynomial::linear,
+                settings);
             SerialCommunicator alone;
             const SelectionResult result = selection.select(points, alone);
             EXPECT_EQ(result.selected, mixture.dimension + 1)
@@ -158,21 +143,14 @@ TEST(Polynomial, rigidRotationsAndTranslationsAreReproducedEverywhere)
     const Eigen::AngleAxisd turn(0.8, random.direction());
     const Vector3 shift(5, 6, 7);
     const auto rigid = [&](const Vector3& x)
-    {
-        return Vector3(turn*x - x + shift);
-    };
+    { return Vector3(turn * x - x + shift); };
     const ControlPoints points =
         displaced(randomControlPoints(random, {3, 20, 15, 5}), rigid);
-    const RbfInterpolant s = throughAll
-    (
-        Kernel(KernelType::wendlandC2, 0.8), Polynomial::linear, points
-    );
+    const RbfInterpolant s = throughAll(
+        Kernel(KernelType::wendlandC2, 0.8), Polynomial::linear, points);
     for (const Vector3& x : random.pointsApart(50, 3, 0))
     {
-        EXPECT_LT
-        (
-            (s(rows({x})).row(0).transpose() - rigid(x)).norm(), 1e-12
-        );
+        EXPECT_LT((s(rows({x})).row(0).transpose() - rigid(x)).norm(), 1e-12);
     }
 }
 
@@ -185,10 +163,8 @@ TEST(Polynomial, weightsMeetTheSideConditions)
         {
             Random random(54);
             const ControlPoints points = randomControlPoints(random, mixture);
-            const RbfInterpolant s = throughAll
-            (
-                Kernel(type, moderateRadius(type)), Polynomial::linear, points
-            );
+            const RbfInterpolant s = throughAll(
+                Kernel(type, moderateRadius(type)), Polynomial::linear, points);
 
             // sum_j gamma_j q(x_j) = 0 for q = 1 and the coordinates
             using reference::RealMatrix;
@@ -197,21 +173,17 @@ TEST(Polynomial, weightsMeetTheSideConditions)
             sums.row(0) = w.colwise().sum();
             for (std::size_t a = 0; a < axesOf(mixture).size(); ++a)
             {
-                sums.row(a + 1) =
-                    (s.centres().cast<reference::Real>()
-                    *axesOf(mixture)[a].cast<reference::Real>())
-                   .transpose()*w;
+                sums.row(a + 1) = (s.centres().cast<reference::Real>()
+                                   * axesOf(mixture)[a].cast<reference::Real>())
+                                      .transpose()
+                    * w;
             }
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "side conditions, of the sum of |weights|",
-                    double(sums.cwiseAbs().maxCoeff())
-                   /s.weights().rowwise().norm().sum(),
-                    1e-13
-                )
-            )   << nameOf(type, mixture);
+            EXPECT_TRUE(within(
+                "side conditions, of the sum of |weights|",
+                double(sums.cwiseAbs().maxCoeff())
+                    / s.weights().rowwise().norm().sum(),
+                1e-13))
+                << nameOf(type, mixture);
         }
     }
 }
@@ -232,16 +204,12 @@ TEST(Polynomial, agreesWithTheAugmentedSystem)
                 reference::augmented(type, radius, points, axesOf(mixture));
             const Vectors probes =
                 rows(random.pointsApart(100, mixture.dimension, 0));
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "whole solve with polynomial against augmented system",
-                    largestDifference(s(probes), expected(probes))
-                   /largestDisplacement(points),
-                    1e-10
-                )
-            )   << nameOf(type, mixture);
+            EXPECT_TRUE(within(
+                "whole solve with polynomial against augmented system",
+                largestDifference(s(probes), expected(probes))
+                    / largestDisplacement(points),
+                1e-10))
+                << nameOf(type, mixture);
         }
     }
 }
@@ -270,28 +238,19 @@ TEST(Polynomial, isConstantNormalToThePlaneWhereMovingPointsLieInOne)
         const Vectors at = positionRows(points);
         for (const double error : reference::errors(points, s(at)))
         {
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "conditions, moving points in a plane",
-                    error/largestDisplacement(points),
-                    1e-10
-                )
-            )   << test::nameOf(type);
+            EXPECT_TRUE(within(
+                "conditions, moving points in a plane",
+                error / largestDisplacement(points), 1e-10))
+                << test::nameOf(type);
         }
         const reference::Field expected =
             reference::augmented(type, radius, points, axes2D);
-        EXPECT_TRUE
-        (
-            within
-            (
-                "whole solve with polynomial against augmented system",
-                largestDifference(s(at), expected(at))
-               /largestDisplacement(points),
-                1e-10
-            )
-        )   << test::nameOf(type);
+        EXPECT_TRUE(within(
+            "whole solve with polynomial against augmented system",
+            largestDifference(s(at), expected(at))
+                / largestDisplacement(points),
+            1e-10))
+            << test::nameOf(type);
     }
 }
 
@@ -301,11 +260,9 @@ TEST(Polynomial, ofOnePointIsItsDisplacementEverywhere)
     const Vector3 d(1, 2, 3);
     for (const KernelType type : allKernels())
     {
-        const RbfInterpolant s = throughAll
-        (
+        const RbfInterpolant s = throughAll(
             Kernel(type, 0.5), Polynomial::linear,
-            {ControlPoint::prescribed(Vector3(4, 5, 6), d)}
-        );
+            {ControlPoint::prescribed(Vector3(4, 5, 6), d)});
         const Vectors found = s(Vectors(Vectors::Random(10, 3)));
         EXPECT_LT((found.rowwise() - d.transpose()).norm(), 1e-14)
             << test::nameOf(type);
@@ -327,10 +284,8 @@ TEST(Polynomial, thinPlateRefusesMovingPointsInAPlaneWithSlidingOnesOffIt)
                 p.position[dimension - 1] = 0.5;
             }
         }
-        GreedySelection selection
-        (
-            Kernel(KernelType::thinPlate, 1), Polynomial::linear, takeAll()
-        );
+        GreedySelection selection(
+            Kernel(KernelType::thinPlate, 1), Polynomial::linear, takeAll());
         SerialCommunicator alone;
         EXPECT_THROW(selection.select(points, alone), std::invalid_argument);
 
@@ -346,10 +301,8 @@ TEST(Polynomial, isRefusedWhereEveryPointSlides)
     const ControlPoints points = randomControlPoints(random, {3, 0, 20, 5});
     for (const KernelType type : allKernels())
     {
-        GreedySelection selection
-        (
-            Kernel(type, 1), Polynomial::linear, takeAll()
-        );
+        GreedySelection selection(
+            Kernel(type, 1), Polynomial::linear, takeAll());
         SerialCommunicator alone;
         EXPECT_THROW(selection.select(points, alone), std::invalid_argument)
             << test::nameOf(type);
@@ -366,11 +319,9 @@ TEST(Polynomial, isNotOptionalForConditionallyDefiniteKernels)
         const Kernel kernel(type, 1);
         if (kernel.order() > 0)
         {
-            EXPECT_THROW
-            (
+            EXPECT_THROW(
                 GreedySelection(kernel, Polynomial::none, takeAll()),
-                std::invalid_argument
-            );
+                std::invalid_argument);
             EXPECT_THROW((GramFactor(kernel)), std::invalid_argument);
         }
     }

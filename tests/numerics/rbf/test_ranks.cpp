@@ -23,8 +23,11 @@ namespace
 class Meeting
 {
 public:
-
-    explicit Meeting(int ranks) : said(ranks), ranks_(ranks) {}
+    explicit Meeting(int ranks)
+    : said(ranks),
+      ranks_(ranks)
+    {
+    }
 
     void wait()
     {
@@ -37,12 +40,8 @@ public:
             all_.notify_all();
             return;
         }
-        const bool complete = all_.wait_for
-        (
-            lock,
-            std::chrono::seconds(60),
-            [&] { return round_ != round; }
-        );
+        const bool complete = all_.wait_for(
+            lock, std::chrono::seconds(60), [&] { return round_ != round; });
         if (!complete)
         {
             throw std::runtime_error("a rank is missing in a collective");
@@ -52,7 +51,6 @@ public:
     std::vector<std::vector<double>> said;
 
 private:
-
     int ranks_;
     int arrived_ = 0;
     long round_ = 0;
@@ -61,17 +59,14 @@ private:
 };
 
 
-class ThreadCommunicator
-:
-    public Communicator
+class ThreadCommunicator : public Communicator
 {
 public:
-
     ThreadCommunicator(Meeting& meeting, int rank)
-    :
-        meeting_(meeting),
-        rank_(rank)
-    {}
+    : meeting_(meeting),
+      rank_(rank)
+    {
+    }
 
     int rank() const override { return rank_; }
 
@@ -110,7 +105,6 @@ public:
     }
 
 private:
-
     std::vector<std::vector<double>> exchange(const std::vector<double>& mine)
     {
         meeting_.said[rank_] = mine;
@@ -135,8 +129,7 @@ void onRanks(int ranks, const std::function<void(Communicator&)>& action)
     std::vector<std::thread> threads;
     for (int rank = 0; rank < ranks; ++rank)
     {
-        threads.emplace_back
-        (
+        threads.emplace_back(
             [&, rank]
             {
                 ThreadCommunicator communicator(meeting, rank);
@@ -148,8 +141,7 @@ void onRanks(int ranks, const std::function<void(Communicator&)>& action)
                 {
                     thrown[rank] = std::current_exception();
                 }
-            }
-        );
+            });
     }
     for (std::thread& thread : threads)
     {

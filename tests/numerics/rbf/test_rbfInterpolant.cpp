@@ -12,13 +12,8 @@ using namespace test;
 namespace
 {
 
-RbfInterpolant randomInterpolant
-(
-    Random& random,
-    KernelType type,
-    double radius,
-    Index centres
-)
+RbfInterpolant
+randomInterpolant(Random& random, KernelType type, double radius, Index centres)
 {
     Columns x(centres, 3), w(centres, 3);
     for (Index j = 0; j < centres; ++j)
@@ -37,7 +32,7 @@ Vectors randomPoints(Random& random, Index n)
     std::vector<Vector3> x;
     for (Index i = 0; i < n; ++i)
     {
-        x.push_back(1.2*random.inBox());
+        x.push_back(1.2 * random.inBox());
     }
     return rows(x);
 }
@@ -46,14 +41,11 @@ Vectors randomPoints(Random& random, Index n)
 // Bitwise, where -0 and 0 differ and NaN equals itself
 bool sameBits(const Vectors& a, const Vectors& b)
 {
-    return
-        a.rows() == b.rows()
-     && std::equal
-        (
-            reinterpret_cast<const char*>(a.data()),
-            reinterpret_cast<const char*>(a.data() + a.size()),
-            reinterpret_cast<const char*>(b.data())
-        );
+    return a.rows() == b.rows()
+        && std::equal(
+               reinterpret_cast<const char*>(a.data()),
+               reinterpret_cast<const char*>(a.data() + a.size()),
+               reinterpret_cast<const char*>(b.data()));
 }
 
 
@@ -82,16 +74,12 @@ TEST(RbfInterpolant, agreesWithTheSumInLongDouble)
                 randomInterpolant(random, type, radius, 90);
             const Vectors x = randomPoints(random, 700);
             const Vectors expected = reference::plainSum(s)(x);
-            EXPECT_TRUE
-            (
-                within
-                (
-                    "sum of kernels",
-                    largestDifference(s(x), expected)
-                   /expected.rowwise().norm().maxCoeff(),
-                    1e-11
-                )
-            )   << nameOf(type) << ", radius " << radius;
+            EXPECT_TRUE(within(
+                "sum of kernels",
+                largestDifference(s(x), expected)
+                    / expected.rowwise().norm().maxCoeff(),
+                1e-11))
+                << nameOf(type) << ", radius " << radius;
         }
     }
 }
@@ -156,7 +144,7 @@ TEST(RbfInterpolant, addsThePolynomialToTheSum)
             double expected = plain(i, b) + offset[b];
             for (int a = 0; a < 3; ++a)
             {
-                expected += (x(i, a) - origin[a])*gradient(a, b);
+                expected += (x(i, a) - origin[a]) * gradient(a, b);
             }
             EXPECT_NEAR(found(i, b), expected, 1e-13);
         }
@@ -169,12 +157,9 @@ TEST(RbfInterpolant, aPointsValueDoesNotDependOnTheOthersEvaluatedWithIt)
     for (const KernelType type : allKernels())
     {
         Random random(13);
-        RbfInterpolant s =
-            randomInterpolant(random, type, 0.6, 70);
-        s.setPolynomial
-        (
-            random.inBox(), random.inBox(), Eigen::Matrix3d::Constant(0.1)
-        );
+        RbfInterpolant s = randomInterpolant(random, type, 0.6, 70);
+        s.setPolynomial(
+            random.inBox(), random.inBox(), Eigen::Matrix3d::Constant(0.1));
         const Vectors x = randomPoints(random, 1700);
         const Vectors all = s(x);
 
@@ -189,10 +174,9 @@ TEST(RbfInterpolant, aPointsValueDoesNotDependOnTheOthersEvaluatedWithIt)
 
         for (const Index n : {2, 31, 32, 33, 511, 512, 513, 1100})
         {
-            EXPECT_TRUE
-            (
-                sameBits(s(Vectors(permuted.topRows(n))), expected.topRows(n))
-            )   << nameOf(type) << ", " << n << " points";
+            EXPECT_TRUE(
+                sameBits(s(Vectors(permuted.topRows(n))), expected.topRows(n)))
+                << nameOf(type) << ", " << n << " points";
         }
         EXPECT_TRUE(sameBits(oneByOne(s, x), all)) << nameOf(type);
     }
@@ -206,7 +190,7 @@ TEST(RbfInterpolant, leavingOutCentresOutOfReachChangesNoBit)
         // A cloud in one leaf around all centres needs all of them
         Random random(14);
         const RbfInterpolant s = randomInterpolant(random, type, 0.15, 300);
-        const Vectors x = randomPoints(random, 16*blockSize);
+        const Vectors x = randomPoints(random, 16 * blockSize);
         ASSERT_EQ(PointCloud(x).leaves().size(), 1u);
         ASSERT_GT(s.centres().colwise().minCoeff().minCoeff(), x.minCoeff());
 
@@ -222,13 +206,13 @@ TEST(RbfInterpolant, pointsOnTheRimOfTheSupportGetTheSameBitsAloneAndTogether)
         Random random(15);
         const double radius = 0.3;
         RbfInterpolant s{Kernel(KernelType::wendlandC0, radius)};
-        const Vector3 centre = offset*Vector3::Ones() + random.inBox();
+        const Vector3 centre = offset * Vector3::Ones() + random.inBox();
         s.set(Columns(centre.transpose()), Columns::Constant(1, 3, 1e5));
 
         std::vector<Vector3> x;
         for (Index i = 0; i < 2000; ++i)
         {
-            x.push_back(centre + radius*random.direction());
+            x.push_back(centre + radius * random.direction());
         }
         EXPECT_TRUE(sameBits(oneByOne(s, rows(x)), s(rows(x))))
             << "offset " << offset;
@@ -250,8 +234,8 @@ TEST(RbfInterpolant, isExactlyZeroOutsideTheSupportOfAllCentres)
         for (Index i = 0; i < 1000; ++i)
         {
             // The centres are in [-1,1]^3
-            Vector3 p = 4*random.inBox();
-            p[i%3] = random.uniform(1.500001, 4);
+            Vector3 p = 4 * random.inBox();
+            p[i % 3] = random.uniform(1.500001, 4);
             x.push_back(p);
         }
         EXPECT_TRUE(sameBits(s(rows(x)), Vectors::Zero(1000, 3)))
@@ -277,7 +261,8 @@ TEST(RbfInterpolant, isAsAccurateFarFromTheOrigin)
     // that the shifted positions are exact
     Random random(18);
     const double shift = 1024;
-    const auto rounded = [](double v) { return std::round(v*1048576)/1048576; };
+    const auto rounded = [](double v)
+    { return std::round(v * 1048576) / 1048576; };
     RbfInterpolant near =
         randomInterpolant(random, KernelType::wendlandC2, 0.07, 200);
     Columns c = near.centres().unaryExpr(rounded);
@@ -287,16 +272,11 @@ TEST(RbfInterpolant, isAsAccurateFarFromTheOrigin)
     RbfInterpolant far(near.kernel());
     far.set(c.array() + shift, near.weights());
     const Vectors expected = near(x);
-    EXPECT_TRUE
-    (
-        within
-        (
-            "sum of kernels far from the origin",
-            largestDifference(far(Vectors(x.array() + shift)), expected)
-           /expected.rowwise().norm().maxCoeff(),
-            1e-13
-        )
-    );
+    EXPECT_TRUE(within(
+        "sum of kernels far from the origin",
+        largestDifference(far(Vectors(x.array() + shift)), expected)
+            / expected.rowwise().norm().maxCoeff(),
+        1e-13));
 }
 
 
@@ -309,7 +289,7 @@ TEST(PointCloud, leavesHoldEveryPointOnceAndTheirBoxesEnclosePoints)
     ASSERT_EQ(cloud.size(), x.rows());
     for (const PointCloud::Leaf& leaf : cloud.leaves())
     {
-        EXPECT_EQ((leaf.end - leaf.begin)%blockSize, 0);
+        EXPECT_EQ((leaf.end - leaf.begin) % blockSize, 0);
         EXPECT_LE(leaf.begin + leaf.count, leaf.end);
         for (Index i = leaf.begin; i < leaf.end; ++i)
         {
@@ -320,7 +300,7 @@ TEST(PointCloud, leavesHoldEveryPointOnceAndTheirBoxesEnclosePoints)
         }
 
         // Distance to the box by way of its nearest point
-        const Vector3 q = 3*random.inBox();
+        const Vector3 q = 3 * random.inBox();
         Vector3 nearest = q;
         for (int a = 0; a < 3; ++a)
         {

@@ -25,13 +25,11 @@ ControlPoints displaced(ControlPoints points, double frequency)
     for (ControlPoint& p : points)
     {
         const Vector3& x = p.position;
-        const Vector3 s
-        (
-            std::sin(frequency*x.x() + x.y()),
-            std::cos(3*x.z() - 2*x.x()),
-            std::sin(frequency*x.x()*x.y())
-        );
-        p.value.head(p.k) = p.directions.leftCols(p.k).transpose()*s;
+        const Vector3 s(
+            std::sin(frequency * x.x() + x.y()),
+            std::cos(3 * x.z() - 2 * x.x()),
+            std::sin(frequency * x.x() * x.y()));
+        p.value.head(p.k) = p.directions.leftCols(p.k).transpose() * s;
     }
     return points;
 }
@@ -99,10 +97,9 @@ TEST(Restore, givesTheSameSystemToTheLastBitAsANewOneGets)
         {
             selection->restore(positions, displaced(points, 3), alone);
         }
-        EXPECT_TRUE(sameBits
-        (
-            running.interpolant().weights(), restarted.interpolant().weights()
-        ));
+        EXPECT_TRUE(sameBits(
+            running.interpolant().weights(),
+            restarted.interpolant().weights()));
 
         // What is the same stays so, also where points are added
         for (const double frequency : {3.0, 9.0, 5.0})
@@ -111,20 +108,14 @@ TEST(Restore, givesTheSameSystemToTheLastBitAsANewOneGets)
             const Index added = running.select(next, alone).added;
             EXPECT_EQ(restarted.select(next, alone).added, added);
             EXPECT_EQ(added > 0, frequency == 9) << added;
-            EXPECT_EQ
-            (
-                running.selectedPositions(), restarted.selectedPositions()
-            );
-            EXPECT_TRUE(sameBits
-            (
+            EXPECT_EQ(
+                running.selectedPositions(), restarted.selectedPositions());
+            EXPECT_TRUE(sameBits(
                 running.interpolant().centres(),
-                restarted.interpolant().centres()
-            ));
-            EXPECT_TRUE(sameBits
-            (
+                restarted.interpolant().centres()));
+            EXPECT_TRUE(sameBits(
                 running.interpolant().weights(),
-                restarted.interpolant().weights()
-            ));
+                restarted.interpolant().weights()));
         }
     }
 }
@@ -146,16 +137,12 @@ TEST(Restore, changesTheSolutionByRoundOffAlone)
         ASSERT_EQ(positions.size(), 60u) << algorithm.second;
 
         selection.restore(positions, candidates, alone);
-        EXPECT_TRUE
-        (
-            within
-            (
-                "weights after restore",
-                largestWeightDifference(former, selection.interpolant())
-               /former.weights().rowwise().norm().maxCoeff(),
-                1e-12
-            )
-        )   << algorithm.second;
+        EXPECT_TRUE(within(
+            "weights after restore",
+            largestWeightDifference(former, selection.interpolant())
+                / former.weights().rowwise().norm().maxCoeff(),
+            1e-12))
+            << algorithm.second;
 
         // Prescribed points first; then nothing changes any more
         positions = selection.selectedPositions();
@@ -171,14 +158,12 @@ TEST(Restore, leavesOutOnlyThePointsThatMakeTheSystemSingular)
 {
     // Two in a hundred nearly coincide
     Random random(92);
-    ControlPoints candidates = displaced
-    (
-        randomControlPoints(random, {3, 60, 40, 0}), 4
-    );
+    ControlPoints candidates =
+        displaced(randomControlPoints(random, {3, 60, 40, 0}), 4);
     for (const Index i : {10, 80})
     {
         ControlPoint p = candidates[i];
-        p.position += 1e-12*Vector3(1, 1, 1);
+        p.position += 1e-12 * Vector3(1, 1, 1);
         candidates.push_back(p);
     }
     std::vector<Vector3> positions;
@@ -205,15 +190,12 @@ TEST(Restore, everyRankRefusesAPositionWithoutCandidate)
     positions.push_back(candidates[5].position);
     positions.back().x() = std::nextafter(positions.back().x(), 2.0);
     std::atomic<int> refused(0);
-    onRanks
-    (
+    onRanks(
         3,
         [&](Communicator& communicator)
         {
-            GreedySelection selection
-            (
-                kernel, Polynomial::none, settingsOf(1e-2)
-            );
+            GreedySelection selection(
+                kernel, Polynomial::none, settingsOf(1e-2));
             const ControlPoints mine =
                 communicator.rank() == 1 ? candidates : ControlPoints();
             try
@@ -226,7 +208,6 @@ TEST(Restore, everyRankRefusesAPositionWithoutCandidate)
                 EXPECT_NE(message.find("no control point at"), message.npos);
                 ++refused;
             }
-        }
-    );
+        });
     EXPECT_EQ(refused, 3);
 }

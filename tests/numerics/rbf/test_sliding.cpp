@@ -29,29 +29,25 @@ struct Duct
         {
             for (int j = 0; j < around; ++j)
             {
-                const double a = 2*M_PI*(j + 0.5*(k%2))/around;
+                const double a = 2 * M_PI * (j + 0.5 * (k % 2)) / around;
                 const Vector3 n(std::cos(a), std::sin(a), 0);
-                const Vector3 x = n + (2.0*k/(along - 1) - 1)*Vector3::UnitZ();
-                points.push_back
-                (
+                const Vector3 x =
+                    n + (2.0 * k / (along - 1) - 1) * Vector3::UnitZ();
+                points.push_back(
                     k == along - 1
-                  ? ControlPoint::prescribed(x, Vector3::Zero())
-                  : k == 0
-                  ? ControlPoint::sliding(x, {n, Vector3::UnitZ()})
-                  : ControlPoint::sliding(x, {n})
-                );
+                        ? ControlPoint::prescribed(x, Vector3::Zero())
+                        : k == 0
+                        ? ControlPoint::sliding(x, {n, Vector3::UnitZ()})
+                        : ControlPoint::sliding(x, {n}));
             }
         }
         Random random(7);
         for (int i = 0; i < 150; ++i)
         {
-            const Vector3 x = 0.5*random.direction();
+            const Vector3 x = 0.5 * random.direction();
             const Vector3 turned =
-                Eigen::AngleAxisd(turn, Vector3::UnitZ())*x;
-            points.push_back
-            (
-                ControlPoint::prescribed(x, motion + turned - x)
-            );
+                Eigen::AngleAxisd(turn, Vector3::UnitZ()) * x;
+            points.push_back(ControlPoint::prescribed(x, motion + turned - x));
         }
     }
 
@@ -87,8 +83,7 @@ struct Duct
             const Vector3 y = points[i].position + s.row(i).transpose();
             if (points[i].slides())
             {
-                largest =
-                    std::max(largest, std::abs(y.head<2>().norm() - 1));
+                largest = std::max(largest, std::abs(y.head<2>().norm() - 1));
             }
             if (points[i].k == 2)
             {
@@ -105,10 +100,7 @@ GreedySelection selection(double tolerance, Index maxPoints = 100000)
     SelectionSettings settings;
     settings.tolerance = tolerance;
     settings.maxPoints = maxPoints;
-    return
-    {
-        Kernel(KernelType::wendlandC2, 2), Polynomial::none, settings
-    };
+    return {Kernel(KernelType::wendlandC2, 2), Polynomial::none, settings};
 }
 
 } // namespace
@@ -122,17 +114,15 @@ TEST(SlidingCondition, bringsThePointOntoThePlaneAlongItsOwnDirection)
         const Vector3 s = random.inBox();
         const Vector3 n = random.direction();
         Vector3 m = random.direction();
-        m = (n + (n.dot(m) < 0 ? -0.5 : 0.5)*m).normalized();
+        m = (n + (n.dot(m) < 0 ? -0.5 : 0.5) * m).normalized();
         ControlPoint p = ControlPoint::sliding(random.inBox(), {n});
         TangentPlanes planes;
         const double h = random.uniform(-1, 1);
         planes.add(m, h);
         EXPECT_NEAR(slideOnto(p, s, planes), std::abs(n.dot(m)), 1e-15);
-        const Vector3 moved = p.C()*(p.g() - p.C().transpose()*s);
-        EXPECT_TRUE(within
-        (
-            "sliding point and its plane", std::abs(m.dot(moved) + h), 1e-14
-        ));
+        const Vector3 moved = p.C() * (p.g() - p.C().transpose() * s);
+        EXPECT_TRUE(within(
+            "sliding point and its plane", std::abs(m.dot(moved) + h), 1e-14));
     }
 }
 
@@ -145,26 +135,23 @@ TEST(SlidingCondition, bringsThePointOntoBothPlanesOfAnEdge)
         const Vector3 s = random.inBox();
         const Vector3 n1 = random.direction();
         const Vector3 n2 =
-            (n1.cross(random.direction()).normalized() + 0.3*n1).normalized();
-        const Vector3 turn = 0.3*random.inBox();
-        const Eigen::AngleAxisd rotation
-        (
-            0.2 + 0.5*turn.norm(), turn.normalized()
-        );
+            (n1.cross(random.direction()).normalized() + 0.3 * n1).normalized();
+        const Vector3 turn = 0.3 * random.inBox();
+        const Eigen::AngleAxisd rotation(
+            0.2 + 0.5 * turn.norm(), turn.normalized());
         ControlPoint p = ControlPoint::sliding(random.inBox(), {n1, n2});
         TangentPlanes planes;
-        const Vector3 m1 = rotation*n1, m2 = rotation*n2;
+        const Vector3 m1 = rotation * n1, m2 = rotation * n2;
         const double h1 = random.uniform(-1, 1), h2 = random.uniform(-1, 1);
         planes.add(m1, h1);
         planes.add(m2, h2);
         EXPECT_GT(slideOnto(p, s, planes), 0.7);
-        const Vector3 moved = p.C()*(p.g() - p.C().transpose()*s);
-        EXPECT_TRUE(within
-        (
+        const Vector3 moved = p.C() * (p.g() - p.C().transpose() * s);
+        EXPECT_TRUE(within(
             "point on an edge and its planes",
-            std::max(std::abs(m1.dot(moved) + h1), std::abs(m2.dot(moved) + h2)),
-            1e-13
-        ));
+            std::max(
+                std::abs(m1.dot(moved) + h1), std::abs(m2.dot(moved) + h2)),
+            1e-13));
         EXPECT_EQ(p.k, 2);
     }
 }
@@ -176,7 +163,7 @@ TEST(SlidingCondition, aPlaneThatIsNearlyPerpendicularMovesThePointNoFurther)
     TangentPlanes planes;
     planes.add(Vector3(1, 0, 1e-9).normalized(), 0.1);
     EXPECT_NEAR(slideOnto(p, Vector3::Zero(), planes), 1e-9, 1e-12);
-    EXPECT_NEAR(p.g()(0), -0.1/leastSlidingCosine, 1e-12);
+    EXPECT_NEAR(p.g()(0), -0.1 / leastSlidingCosine, 1e-12);
 }
 
 
@@ -187,7 +174,7 @@ TEST(SlidingCondition, theWayIntoThePlanesIsTheShortest)
     const Vector3 m = (n + random.direction()).normalized();
     TangentPlanes one;
     one.add(n, 0.3);
-    EXPECT_LT((wayInto(one) + 0.3*n).norm(), 1e-15);
+    EXPECT_LT((wayInto(one) + 0.3 * n).norm(), 1e-15);
 
     TangentPlanes two;
     two.add(n, 0.3);
@@ -222,20 +209,16 @@ TEST(Sliding, pointsEndOnACylinderAndOnItsRim)
         const SelectionResult result =
             curved.select(duct.points, serial, Duct::slide);
         EXPECT_TRUE(result.converged());
-        EXPECT_LE
-        (
-            duct.distance(curved.interpolant()(x)), 1.01*result.tolerance
-        );
+        EXPECT_LE(
+            duct.distance(curved.interpolant()(x)), 1.01 * result.tolerance);
         EXPECT_EQ(result.tolerance, asPlanes.tolerance);
-        std::printf
-        (
+        std::printf(
             "duct, tolerance %g: %ld points in %ld sweeps, %ld renewals; as "
             "planes %ld in %ld, then %.2g off\n",
             tolerance, result.selected, result.sweeps, result.renewals,
             asPlanes.selected, asPlanes.sweeps,
-            planes.distance(tangential.interpolant()(x))
-        );
-        EXPECT_LE(result.selected, 1.2*asPlanes.selected);
+            planes.distance(tangential.interpolant()(x)));
+        EXPECT_LE(result.selected, 1.2 * asPlanes.selected);
         EXPECT_LE(result.renewals, 12);
     }
 }
@@ -253,18 +236,14 @@ TEST(Sliding, pointsEndOnTheCylinderWithEveryAlgorithmAndWithAllPoints)
         settings.all = which == 3;
         Duct duct(motion);
         SerialCommunicator serial;
-        GreedySelection greedy
-        (
-            Kernel(KernelType::wendlandC2, 1), Polynomial::none, settings
-        );
+        GreedySelection greedy(
+            Kernel(KernelType::wendlandC2, 1), Polynomial::none, settings);
         const SelectionResult result =
             greedy.select(duct.points, serial, Duct::slide);
         EXPECT_TRUE(result.converged());
-        EXPECT_LE
-        (
+        EXPECT_LE(
             duct.distance(greedy.interpolant()(positionRows(duct.points))),
-            1.01*result.tolerance
-        );
+            1.01 * result.tolerance);
     }
 }
 
@@ -287,20 +266,17 @@ TEST(Sliding, aMotionThatReturnsLeavesNothing)
         const Vectors s = curved.interpolant()(x);
         if (i > 0)
         {
-            EXPECT_LT
-            (
-                largestDifference(s, there), i > 2 ? 1e-15 : result.tolerance
-            );
+            EXPECT_LT(
+                largestDifference(s, there), i > 2 ? 1e-15 : result.tolerance);
         }
         there = s;
 
         Duct back(Vector3::Zero());
         curved.select(back.points, serial, Duct::slide);
-        EXPECT_LT
-        (
-            largestDifference(curved.interpolant()(x), Vectors::Zero(x.rows(), 3)),
-            1e-15
-        );
+        EXPECT_LT(
+            largestDifference(
+                curved.interpolant()(x), Vectors::Zero(x.rows(), 3)),
+            1e-15);
     }
     EXPECT_EQ(added, 0);
 }
@@ -314,23 +290,25 @@ TEST(Sliding, isTheSameOnEveryNumberOfRanks)
     for (const int ranks : {1, 2, 3})
     {
         Vectors found;
-        onRanks(ranks, [&](Communicator& communicator)
-        {
-            ControlPoints mine;
-            for (std::size_t i = 0; i < whole.points.size(); ++i)
+        onRanks(
+            ranks,
+            [&](Communicator& communicator)
             {
-                if (int(i*i % ranks) == communicator.rank())
+                ControlPoints mine;
+                for (std::size_t i = 0; i < whole.points.size(); ++i)
                 {
-                    mine.push_back(whole.points[i]);
+                    if (int(i * i % ranks) == communicator.rank())
+                    {
+                        mine.push_back(whole.points[i]);
+                    }
                 }
-            }
-            GreedySelection curved = selection(1e-4);
-            curved.select(mine, communicator, Duct::slide);
-            if (communicator.rank() == 0)
-            {
-                found = curved.interpolant()(x);
-            }
-        });
+                GreedySelection curved = selection(1e-4);
+                curved.select(mine, communicator, Duct::slide);
+                if (communicator.rank() == 0)
+                {
+                    found = curved.interpolant()(x);
+                }
+            });
         if (ranks == 1)
         {
             expected = found;
@@ -375,19 +353,15 @@ TEST(Sliding, pointsOnASphereFollowALargeTurn)
     for (int i = 0; i < 1500; ++i)
     {
         const Vector3 x = random.direction();
-        points.push_back
-        (
-            x[2] > 0.9 ? ControlPoint::prescribed(x, turn*x - x)
-          : x[2] < -0.9 ? ControlPoint::prescribed(x, Vector3::Zero())
-          : ControlPoint::sliding(x, {x})
-        );
+        points.push_back(
+            x[2] > 0.9        ? ControlPoint::prescribed(x, turn * x - x)
+                : x[2] < -0.9 ? ControlPoint::prescribed(x, Vector3::Zero())
+                              : ControlPoint::sliding(x, {x}));
     }
     SerialCommunicator serial;
     GreedySelection curved = selection(1e-4);
-    const SelectionResult result = curved.select
-    (
-        points,
-        serial,
+    const SelectionResult result = curved.select(
+        points, serial,
         [](const Vectors& s, ControlPoints& p)
         {
             for (std::size_t i = 0; i < p.size(); ++i)
@@ -400,16 +374,13 @@ TEST(Sliding, pointsOnASphereFollowALargeTurn)
                     slideOnto(p[i], s.row(i).transpose(), planes);
                 }
             }
-        }
-    );
+        });
     EXPECT_TRUE(result.converged());
     const Vectors x = positionRows(points);
     const Vectors y = x + curved.interpolant()(x);
-    EXPECT_LE
-    (
+    EXPECT_LE(
         (y.rowwise().norm().array() - 1).abs().maxCoeff(),
-        1.01*result.tolerance
-    );
+        1.01 * result.tolerance);
 }
 
 
@@ -420,8 +391,8 @@ namespace
 // around it: corners are displaced, points between them slide on the flanks
 struct Rib
 {
-    ControlPoints target;    // along the normals of the displaced flanks
-    ControlPoints initial;   // along those at rest, as if nothing moved
+    ControlPoints target;  // along the normals of the displaced flanks
+    ControlPoints initial; // along those at rest, as if nothing moved
 
     void line(const std::vector<Vector3>& x, const std::vector<Vector3>& d)
     {
@@ -435,20 +406,15 @@ struct Rib
             }
             const Vector3 before = x[i + 1] - x[i];
             const Vector3 after = before + d[i + 1] - d[i];
-            const int n = int(before.norm()/distance);
+            const int n = int(before.norm() / distance);
             for (int k = 1; k < n; ++k)
             {
-                const double t = double(k)/n;
-                target.push_back(ControlPoint::sliding
-                (
-                    x[i] + t*before,
-                    {Vector3(-after[1], after[0], 0)},
-                    (1 - t)*d[i] + t*d[i + 1]
-                ));
-                initial.push_back(ControlPoint::sliding
-                (
-                    x[i] + t*before, {Vector3(-before[1], before[0], 0)}
-                ));
+                const double t = double(k) / n;
+                target.push_back(ControlPoint::sliding(
+                    x[i] + t * before, {Vector3(-after[1], after[0], 0)},
+                    (1 - t) * d[i] + t * d[i + 1]));
+                initial.push_back(ControlPoint::sliding(
+                    x[i] + t * before, {Vector3(-before[1], before[0], 0)}));
             }
         }
     }
@@ -456,20 +422,32 @@ struct Rib
     Rib()
     {
         const Vector3 o = Vector3::Zero();
-        line
-        (
-            {{-0.9, 0, 0}, {-0.435, 0, 0}, {-0.305, 0.15, 0}, {0.305, 0.15, 0},
-             {0.435, 0, 0}, {0.9, 0, 0}, {0.9, 1, 0}, {-0.9, 1, 0}},
-            {o, {0.035, 0, 0}, {0.07, 0.1, 0}, {-0.07, 0.1, 0},
-             {-0.035, 0, 0}, o, o, o}
-        );
-        line
-        (
-            {{-0.45326516, 0.04, 0}, {-0.32326516, 0.19, 0},
-             {0.32326516, 0.19, 0}, {0.45326516, 0.04, 0}},
-            {{0.03173854, 0, 0}, {0.06673854, 0.1, 0}, {-0.06673854, 0.1, 0},
-             {-0.03173854, 0, 0}}
-        );
+        line(
+            {{-0.9, 0, 0},
+             {-0.435, 0, 0},
+             {-0.305, 0.15, 0},
+             {0.305, 0.15, 0},
+             {0.435, 0, 0},
+             {0.9, 0, 0},
+             {0.9, 1, 0},
+             {-0.9, 1, 0}},
+            {o,
+             {0.035, 0, 0},
+             {0.07, 0.1, 0},
+             {-0.07, 0.1, 0},
+             {-0.035, 0, 0},
+             o,
+             o,
+             o});
+        line(
+            {{-0.45326516, 0.04, 0},
+             {-0.32326516, 0.19, 0},
+             {0.32326516, 0.19, 0},
+             {0.45326516, 0.04, 0}},
+            {{0.03173854, 0, 0},
+             {0.06673854, 0.1, 0},
+             {-0.06673854, 0.1, 0},
+             {-0.03173854, 0, 0}});
         for (const ControlPoint& p : target)
         {
             if (!p.slides())
@@ -494,12 +472,10 @@ TEST(Sliding, normalsOfTheDisplacedFlanksOfARibTakeFewerPoints)
     GreedySelection initial(kernel, Polynomial::none, settings);
     const SelectionResult few = target.select(rib.target, serial);
     const SelectionResult many = initial.select(rib.initial, serial);
-    std::printf
-    (
+    std::printf(
         "rib, %ld points: %ld along the normals of the displaced flanks, %ld "
         "along those at rest\n",
-        few.candidates, few.selected, many.selected
-    );
+        few.candidates, few.selected, many.selected);
     EXPECT_TRUE(few.converged());
-    EXPECT_LT(2*few.selected, many.selected);
+    EXPECT_LT(2 * few.selected, many.selected);
 }

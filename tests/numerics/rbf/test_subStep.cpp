@@ -21,10 +21,8 @@ SubStepSettings settings(const double radius)
 {
     SelectionSettings selection;
     selection.all = true;
-    return
-    {
-        Kernel(KernelType::wendlandC2, radius), Polynomial::none, selection, 0
-    };
+    return {
+        Kernel(KernelType::wendlandC2, radius), Polynomial::none, selection, 0};
 }
 
 
@@ -37,19 +35,16 @@ struct Motion
     Vectors moved;
 
     Motion(const ControlPoints& c, const Vectors& x)
-    :
-        conditions(c),
-        positions(x),
-        reached(Vectors::Zero(Index(c.size()), 3)),
-        moved(Vectors::Zero(x.rows(), 3))
-    {}
+    : conditions(c),
+      positions(x),
+      reached(Vectors::Zero(Index(c.size()), 3)),
+      moved(Vectors::Zero(x.rows(), 3))
+    {
+    }
 
-    void run
-    (
-        const SubStepSettings& how,
-        const int n,
-        const GreedySelection::Renewal& renewal = GreedySelection::Renewal()
-    )
+    void
+    run(const SubStepSettings& how, const int n,
+        const GreedySelection::Renewal& renewal = GreedySelection::Renewal())
     {
         SerialCommunicator communicator;
         const Index nc = Index(conditions.size());
@@ -58,15 +53,12 @@ struct Motion
             Vectors x(nc + positions.rows(), 3);
             for (Index i = 0; i < nc; ++i)
             {
-                x.row(i) =
-                    conditions[i].position.transpose() + reached.row(i);
+                x.row(i) = conditions[i].position.transpose() + reached.row(i);
             }
             x.bottomRows(positions.rows()) = positions + moved;
             SelectionResult result;
-            const SubStep made = subStep
-            (
-                how, conditions, reached, n - step, renewal, x, communicator
-            );
+            const SubStep made = subStep(
+                how, conditions, reached, n - step, renewal, x, communicator);
             result = made.result;
             const Vectors& s = made.displacements;
             reached += s.topRows(nc);
@@ -86,7 +78,7 @@ Motion squeeze(const double distance)
     Vectors x = Vectors::Zero(99, 3);
     for (Index i = 0; i < 99; ++i)
     {
-        x(i, 0) = 0.01*double(i + 1);
+        x(i, 0) = 0.01 * double(i + 1);
     }
     return Motion(c, x);
 }
@@ -96,11 +88,8 @@ bool inOrder(const Motion& motion)
 {
     for (Index i = 1; i < motion.positions.rows(); ++i)
     {
-        if
-        (
-            motion.positions(i, 0) + motion.moved(i, 0)
-         <= motion.positions(i - 1, 0) + motion.moved(i - 1, 0)
-        )
+        if (motion.positions(i, 0) + motion.moved(i, 0)
+            <= motion.positions(i - 1, 0) + motion.moved(i - 1, 0))
         {
             return false;
         }
@@ -130,10 +119,8 @@ TEST(SubStep, oneStepIsTheMotionAsAWhole)
     motion.run(settings(1), 1);
 
     SerialCommunicator communicator;
-    GreedySelection selection
-    (
-        settings(1).kernel, Polynomial::none, settings(1).selection
-    );
+    GreedySelection selection(
+        settings(1).kernel, Polynomial::none, settings(1).selection);
     selection.select(motion.conditions, communicator);
     const Vectors s = selection.interpolant()(motion.positions);
     EXPECT_LT((s - motion.moved).cwiseAbs().maxCoeff(), 1e-15);
@@ -158,10 +145,8 @@ TEST(SubStep, slidingPointsStayOnTheirPlaneAndFollowAMovingOne)
     {
         ControlPoints c;
         c.push_back(ControlPoint::prescribed({0, 1, 0}, {0.5, 0, 0}));
-        c.push_back
-        (
-            ControlPoint::sliding({0.1, 0, 0}, {{0, 1, 0}}, {0, rise, 0})
-        );
+        c.push_back(
+            ControlPoint::sliding({0.1, 0, 0}, {{0, 1, 0}}, {0, rise, 0}));
         Motion motion(c, Vectors::Zero(1, 3));
         motion.run(settings(2), 5);
         EXPECT_NEAR(motion.reached(1, 1), rise, 1e-14);
@@ -186,8 +171,6 @@ TEST(SubStep, conditionsThatFollowThePointAreMetAtTheEnd)
     Motion motion(c, Vectors::Zero(1, 3));
     motion.run(how, 6, ontoCircle);
     EXPECT_GT(motion.reached(1, 0), 0.01);
-    EXPECT_NEAR
-    (
-        std::hypot(motion.reached(1, 0), 1 + motion.reached(1, 1)), 1, 1e-9
-    );
+    EXPECT_NEAR(
+        std::hypot(motion.reached(1, 0), 1 + motion.reached(1, 1)), 1, 1e-9);
 }

@@ -22,17 +22,16 @@ struct Surface
     Vectors residuals;
 
     Surface(Index n, unsigned seed)
-    :
-        x(n, 3),
-        residuals(n, 3)
+    : x(n, 3),
+      residuals(n, 3)
     {
         Random random(seed);
         for (Index i = 0; i < n; ++i)
         {
-            const Vector3 p = 0.5*random.direction();
+            const Vector3 p = 0.5 * random.direction();
             x.row(i) = p.transpose();
-            residuals.row(i) << 1e-3*std::sin(9*p[0]), 1e-3*std::cos(7*p[1]),
-                1e-3*p[2];
+            residuals.row(i) << 1e-3 * std::sin(9 * p[0]),
+                1e-3 * std::cos(7 * p[1]), 1e-3 * p[2];
         }
     }
 };
@@ -47,12 +46,9 @@ TEST(SurfaceCorrection, meetsEveryResidual)
     correction.set(surface.residuals);
     Vectors d = Vectors::Zero(3000, 3);
     correction.add(correction.reach(surface.x), d);
-    EXPECT_TRUE(within
-    (
+    EXPECT_TRUE(within(
         "surface correction at its points",
-        (d - surface.residuals).cwiseAbs().maxCoeff()/1e-3,
-        1e-13
-    ));
+        (d - surface.residuals).cwiseAbs().maxCoeff() / 1e-3, 1e-13));
     EXPECT_GT(correction.levels(), 3);
 }
 
@@ -87,11 +83,11 @@ TEST(SurfaceCorrection, movesTheNeighbourhoodWithTheSurface)
     const Surface surface(3000, 4);
     SurfaceCorrection correction(surface.x, 0.2);
     correction.set(surface.residuals);
-    Vectors off = 1.000002*surface.x;
+    Vectors off = 1.000002 * surface.x;
     Vectors d = Vectors::Zero(3000, 3);
     correction.add(correction.reach(off), d);
     const double gradient =
-        (d - surface.residuals).rowwise().norm().maxCoeff()/1e-6;
+        (d - surface.residuals).rowwise().norm().maxCoeff() / 1e-6;
     EXPECT_LT(gradient, 0.5);
 }
 
@@ -101,10 +97,10 @@ TEST(SurfaceCorrection, followsNewResiduals)
     const Surface surface(400, 5);
     SurfaceCorrection correction(surface.x, 0.2);
     correction.set(surface.residuals);
-    correction.set(-3*surface.residuals);
+    correction.set(-3 * surface.residuals);
     Vectors d = Vectors::Zero(400, 3);
     correction.add(correction.reach(surface.x), d);
-    EXPECT_LT((d + 3*surface.residuals).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_LT((d + 3 * surface.residuals).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 
@@ -114,19 +110,16 @@ TEST(ExactSurface, isTheSameOnAnyRanksAndWithNewResiduals)
     const Surface surface(300, 6);
     const auto pointAt = [&](Index i)
     {
-        return ControlPoint::prescribed
-        (
-            surface.x.row(i%300).transpose(), Vector3::Zero()
-        );
+        return ControlPoint::prescribed(
+            surface.x.row(i % 300).transpose(), Vector3::Zero());
     };
     Vectors near(600, 3);
-    near << surface.x, 1.001*surface.x;
+    near << surface.x, 1.001 * surface.x;
     Vectors expected;
     for (const int ranks : {1, 3})
     {
         std::vector<Vectors> moved(ranks);
-        onRanks
-        (
+        onRanks(
             ranks,
             [&](Communicator& communicator)
             {
@@ -136,27 +129,22 @@ TEST(ExactSurface, isTheSameOnAnyRanksAndWithNewResiduals)
                 for (Index i = rank; i < 301; i += ranks)
                 {
                     mine.push_back(pointAt(i));
-                    residuals.push_back(surface.residuals.row(i%300));
+                    residuals.push_back(surface.residuals.row(i % 300));
                 }
                 ExactSurface exact(0.2);
                 for (const double factor : {1.0, -3.0})
                 {
                     moved[rank] = Vectors::Zero(600, 3);
-                    exact.add
-                    (
-                        mine, factor*rows(residuals), communicator, near,
-                        moved[rank]
-                    );
+                    exact.add(
+                        mine, factor * rows(residuals), communicator, near,
+                        moved[rank]);
                 }
-            }
-        );
+            });
         if (ranks == 1)
         {
-            const Vectors open = -3*surface.residuals;
-            EXPECT_LT
-            (
-                (moved[0].topRows(300) - open).cwiseAbs().maxCoeff(), 1e-15
-            );
+            const Vectors open = -3 * surface.residuals;
+            EXPECT_LT(
+                (moved[0].topRows(300) - open).cwiseAbs().maxCoeff(), 1e-15);
             expected = moved[0];
         }
         for (const Vectors& d : moved)
@@ -175,29 +163,25 @@ TEST(ExactSurface, hasTheSymmetryAndThePeriodOfItsImages)
     Box box;
     box.low = Vector3::Zero();
     box.high = Vector3::Ones();
-    const ImageGroup images
-    (
-        {
-            RigidMap::reflection(Vector3::Zero(), Vector3::UnitX()),
-            RigidMap::translation(Vector3::UnitY())
-        },
-        box, 0.7, 100
-    );
+    const ImageGroup images(
+        {RigidMap::reflection(Vector3::Zero(), Vector3::UnitX()),
+         RigidMap::translation(Vector3::UnitY())},
+        box, 0.7, 100);
     ControlPoints points;
     Vectors residuals(202, 3);
     Columns x(202, 3);
     for (Index i = 0; i < 202; ++i)
     {
-        Vector3 at = surface.x.row(i%200).transpose();
+        Vector3 at = surface.x.row(i % 200).transpose();
         for (int a = 0; a < 3; ++a)
         {
             at[a] -= std::floor(at[a]);
         }
-        Vector3 r = surface.residuals.row(i%200).transpose();
+        Vector3 r = surface.residuals.row(i % 200).transpose();
         if (i >= 200)
         {
             // In the plane of the mirror, and very near to it
-            at = Vector3(i == 200 ? 0 : 1e-4, 0.3, 0.4 + 0.2*(i - 200));
+            at = Vector3(i == 200 ? 0 : 1e-4, 0.3, 0.4 + 0.2 * (i - 200));
             r[0] = i == 200 ? 0 : r[0];
         }
         points.push_back(ControlPoint::prescribed(at, Vector3::Zero()));
@@ -208,22 +192,20 @@ TEST(ExactSurface, hasTheSymmetryAndThePeriodOfItsImages)
     // At the points themselves, in the plane of the mirror, and on both
     // periodic sides
     const Index n = 100;
-    Vectors where(202 + 3*n, 3);
+    Vectors where(202 + 3 * n, 3);
     where.topRows(202) = x;
     for (Index i = 0; i < n; ++i)
     {
-        const double a = 0.01*i;
-        const double b = std::fmod(0.37*i, 1.0);
+        const double a = 0.01 * i;
+        const double b = std::fmod(0.37 * i, 1.0);
         where.row(202 + i) << 0, a, b;
         where.row(202 + n + i) << a, 0, b;
-        where.row(202 + 2*n + i) << a, 1, b;
+        where.row(202 + 2 * n + i) << a, 1, b;
     }
     SerialCommunicator communicator;
     Vectors moved = Vectors::Zero(where.rows(), 3);
-    ExactSurface(0.2, images).add
-    (
-        points, residuals, communicator, where, moved
-    );
+    ExactSurface(0.2, images)
+        .add(points, residuals, communicator, where, moved);
 
     EXPECT_LT((moved.topRows(202) - residuals).cwiseAbs().maxCoeff(), 1e-14);
     const Vectors inPlane = moved.middleRows(202, n);
@@ -247,16 +229,12 @@ TEST(SurfaceCorrection, copesWithNoPoints)
 
 TEST(SurfaceCorrection, refusesCoincidentPointsAndBadRadii)
 {
-    EXPECT_THROW
-    (
-        SurfaceCorrection(Columns::Zero(2, 3), 1), std::invalid_argument
-    );
+    EXPECT_THROW(
+        SurfaceCorrection(Columns::Zero(2, 3), 1), std::invalid_argument);
     for (const double radius : {0.0, -1.0, std::nan("")})
     {
-        EXPECT_THROW
-        (
+        EXPECT_THROW(
             SurfaceCorrection(Columns::Zero(1, 3), radius),
-            std::invalid_argument
-        );
+            std::invalid_argument);
     }
 }

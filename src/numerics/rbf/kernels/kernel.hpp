@@ -40,7 +40,6 @@ enum class KernelType
 class Kernel
 {
 public:
-
     // Support radius r0 in metres; throws std::invalid_argument unless it is
     // finite and positive.
     Kernel(KernelType type, double supportRadius);
@@ -63,7 +62,6 @@ public:
     int smoothness() const;
 
 private:
-
     KernelType type_;
     double supportRadius_;
 };

@@ -13,22 +13,13 @@ namespace morph
 namespace
 {
 
-template<class Formula>
-inline __attribute__((always_inline))
-void addTerms
-(
-    Formula,
-    const double* __restrict__ x,
-    const double* __restrict__ y,
-    const double* __restrict__ z,
-    const double* const centres[3],
-    const double* const weights[3],
-    Index begin,
-    Index end,
-    double (&partX)[blockSize],
-    double (&partY)[blockSize],
-    double (&partZ)[blockSize]
-)
+template <class Formula>
+inline __attribute__((always_inline)) void addTerms(
+    Formula, const double* __restrict__ x, const double* __restrict__ y,
+    const double* __restrict__ z, const double* const centres[3],
+    const double* const weights[3], Index begin, Index end,
+    double (&partX)[blockSize], double (&partY)[blockSize],
+    double (&partZ)[blockSize])
 {
     for (Index j = begin; j < end; ++j)
     {
@@ -44,44 +35,31 @@ void addTerms
             const double dx = x[i] - cx;
             const double dy = y[i] - cy;
             const double dz = z[i] - cz;
-            const double phi = Formula::value(dx*dx + dy*dy + dz*dz);
-            partX[i] += phi*wx;
-            partY[i] += phi*wy;
-            partZ[i] += phi*wz;
+            const double phi = Formula::value(dx * dx + dy * dy + dz * dz);
+            partX[i] += phi * wx;
+            partY[i] += phi * wy;
+            partZ[i] += phi * wz;
         }
     }
 }
 
 
-template<class Formula>
-inline __attribute__((always_inline))
-void addBlock
-(
-    Formula formula,
-    const double* x,
-    const double* y,
-    const double* z,
-    const double* const centres[3],
-    const double* const weights[3],
-    const CentreGroup& group,
-    double* __restrict__ sumX,
-    double* __restrict__ sumY,
-    double* __restrict__ sumZ
-)
+template <class Formula>
+inline __attribute__((always_inline)) void addBlock(
+    Formula formula, const double* x, const double* y, const double* z,
+    const double* const centres[3], const double* const weights[3],
+    const CentreGroup& group, double* __restrict__ sumX,
+    double* __restrict__ sumY, double* __restrict__ sumZ)
 {
     double partX[blockSize] = {};
     double partY[blockSize] = {};
     double partZ[blockSize] = {};
-    addTerms
-    (
-        formula, x, y, z, centres, weights,
-        group.begin, group.end, partX, partY, partZ
-    );
-    addTerms
-    (
-        formula, x, y, z, centres, weights,
-        group.rootlessBegin, group.rootlessEnd, partX, partY, partZ
-    );
+    addTerms(
+        formula, x, y, z, centres, weights, group.begin, group.end, partX,
+        partY, partZ);
+    addTerms(
+        formula, x, y, z, centres, weights, group.rootlessBegin,
+        group.rootlessEnd, partX, partY, partZ);
     for (Index i = 0; i < blockSize; ++i)
     {
         sumX[i] += partX[i];
@@ -91,19 +69,11 @@ void addBlock
 }
 
 
-template<class Formula>
-inline __attribute__((always_inline))
-void fillColumn
-(
-    Formula,
-    const double* __restrict__ x,
-    const double* __restrict__ y,
-    const double* __restrict__ z,
-    Index n,
-    const double centre[3],
-    double inverseRadius2,
-    double* __restrict__ column
-)
+template <class Formula>
+inline __attribute__((always_inline)) void fillColumn(
+    Formula, const double* __restrict__ x, const double* __restrict__ y,
+    const double* __restrict__ z, Index n, const double centre[3],
+    double inverseRadius2, double* __restrict__ column)
 {
     for (Index i = 0; i < n; ++i)
     {
@@ -111,7 +81,7 @@ void fillColumn
         const double dy = y[i] - centre[1];
         const double dz = z[i] - centre[2];
         column[i] =
-            Formula::value((dx*dx + dy*dy + dz*dz)*inverseRadius2);
+            Formula::value((dx * dx + dy * dy + dz * dz) * inverseRadius2);
     }
 }
 
@@ -119,60 +89,32 @@ void fillColumn
 
 
 MORPH_MULTIVERSION
-static void addGroup
-(
-    KernelType type,
-    const double* const points[3],
-    Index nPoints,
-    const double* const centres[3],
-    const double* const weights[3],
-    const CentreGroup& group,
-    double* const sums[3]
-)
+static void addGroup(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const double* const weights[3],
+    const CentreGroup& group, double* const sums[3])
 {
-    radial::dispatch
-    (
-        type,
-        [&](auto formula) __attribute__((always_inline))
-        {
+    radial::dispatch(
+        type, [&](auto formula) __attribute__((always_inline)) {
             for (Index i = 0; i < nPoints; i += blockSize)
             {
-                addBlock
-                (
-                    formula,
-                    points[0] + i,
-                    points[1] + i,
-                    points[2] + i,
-                    centres,
-                    weights,
-                    group,
-                    sums[0] + i,
-                    sums[1] + i,
-                    sums[2] + i
-                );
+                addBlock(
+                    formula, points[0] + i, points[1] + i, points[2] + i,
+                    centres, weights, group, sums[0] + i, sums[1] + i,
+                    sums[2] + i);
             }
-        }
-    );
+        });
 }
 
 
-void addKernelSum
-(
-    KernelType type,
-    const double* const points[3],
-    Index nPoints,
-    const double* const centres[3],
-    const double* const weights[3],
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3]
-)
+void addKernelSum(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const double* const weights[3],
+    const std::vector<CentreGroup>& groups, double* const sums[3])
 {
     if (hasWendlandSum(type))
     {
-        addWendlandSum
-        (
-            type, points, nPoints, centres, weights, groups, sums
-        );
+        addWendlandSum(type, points, nPoints, centres, weights, groups, sums);
         return;
     }
     for (const CentreGroup& group : groups)
@@ -183,50 +125,35 @@ void addKernelSum
 
 
 MORPH_MULTIVERSION
-static void fillMatrix
-(
-    KernelType type,
-    const double* const a[3],
-    Index nA,
-    const double* const b[3],
-    Index nB,
-    double inverseRadius2,
-    double* values
-)
+static void fillMatrix(
+    KernelType type, const double* const a[3], Index nA,
+    const double* const b[3], Index nB, double inverseRadius2, double* values)
 {
-    radial::dispatch
-    (
-        type,
-        [&](auto formula) __attribute__((always_inline))
-        {
+    radial::dispatch(
+        type, [&](auto formula) __attribute__((always_inline)) {
             for (Index j = 0; j < nB; ++j)
             {
                 const double centre[3] = {b[0][j], b[1][j], b[2][j]};
-                fillColumn
-                (
-                    formula, a[0], a[1], a[2], nA, centre,
-                    inverseRadius2, values + j*nA
-                );
+                fillColumn(
+                    formula, a[0], a[1], a[2], nA, centre, inverseRadius2,
+                    values + j * nA);
             }
-        }
-    );
+        });
 }
 
 
 Matrix kernelMatrix(const Kernel& kernel, const Columns& a, const Columns& b)
 {
     Matrix phi(a.rows(), b.rows());
-    const double* const columnsA[3] =
-        {a.col(0).data(), a.col(1).data(), a.col(2).data()};
-    const double* const columnsB[3] =
-        {b.col(0).data(), b.col(1).data(), b.col(2).data()};
+    const double* const columnsA[3] = {
+        a.col(0).data(), a.col(1).data(), a.col(2).data()};
+    const double* const columnsB[3] = {
+        b.col(0).data(), b.col(1).data(), b.col(2).data()};
     const double r0 = kernel.supportRadius();
 
-    fillMatrix
-    (
-        kernel.type(), columnsA, a.rows(), columnsB, b.rows(),
-        1/(r0*r0), phi.data()
-    );
+    fillMatrix(
+        kernel.type(), columnsA, a.rows(), columnsB, b.rows(), 1 / (r0 * r0),
+        phi.data());
     return phi;
 }
 

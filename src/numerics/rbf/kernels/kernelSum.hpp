@@ -33,10 +33,7 @@ struct CentreGroup
     Index rootlessBegin;
     Index rootlessEnd;
 
-    bool empty() const
-    {
-        return begin == end && rootlessBegin == rootlessEnd;
-    }
+    bool empty() const { return begin == end && rootlessBegin == rootlessEnd; }
 };
 
 // Best sizes: round-off against the time of changing groups, and one in four
@@ -51,16 +48,10 @@ constexpr Index rootsOfGroup = 48;
 // points, sums: n x 3 columns (n a multiple of blockSize) given by the pointers
 // to their columns; centres, weights: likewise. Positions are in units of the
 // support radius.
-void addKernelSum
-(
-    KernelType type,
-    const double* const points[3],
-    Index nPoints,
-    const double* const centres[3],
-    const double* const weights[3],
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3]
-);
+void addKernelSum(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const double* const weights[3],
+    const std::vector<CentreGroup>& groups, double* const sums[3]);
 
 // phi(|a_i - b_j|/r0) of all pairs (n x m) of positions in metres
 Matrix kernelMatrix(const Kernel& kernel, const Columns& a, const Columns& b);

@@ -16,22 +16,20 @@ namespace
 
 // Small enough to be culled well, large enough for the list of the centres in
 // reach to cost little beside the sum
-constexpr Index leafSize = 16*blockSize;
+constexpr Index leafSize = 16 * blockSize;
 
 } // namespace
 
 
 double PointCloud::Leaf::distance2(const Vector3& x) const
 {
-    return
-        (low - x).cwiseMax(x - high).cwiseMax(Vector3::Zero()).squaredNorm();
+    return (low - x).cwiseMax(x - high).cwiseMax(Vector3::Zero()).squaredNorm();
 }
 
 
 PointCloud::PointCloud(const Vectors& positions)
-:
-    size_(positions.rows()),
-    order_(positions.rows())
+: size_(positions.rows()),
+  order_(positions.rows())
 {
     std::iota(order_.begin(), order_.end(), Index(0));
     if (size_ > 0)
@@ -68,15 +66,11 @@ void PointCloud::split(const Vectors& x, Index begin, Index end)
     (high - low).maxCoeff(&axis);
 
     // Cut at a multiple of the leaf size, so that only one leaf is not full
-    const Index leaves = (end - begin + leafSize - 1)/leafSize;
-    const Index middle = begin + (leaves/2)*leafSize;
-    std::nth_element
-    (
-        order_.begin() + begin,
-        order_.begin() + middle,
-        order_.begin() + end,
-        [&](Index a, Index b) { return x(a, axis) < x(b, axis); }
-    );
+    const Index leaves = (end - begin + leafSize - 1) / leafSize;
+    const Index middle = begin + (leaves / 2) * leafSize;
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+        [&](Index a, Index b) { return x(a, axis) < x(b, axis); });
     split(x, begin, middle);
     split(x, middle, end);
 }
@@ -96,7 +90,7 @@ void PointCloud::addLeaf(const Vectors& x, Index begin, Index end)
         leaf.high = leaf.high.cwiseMax(p);
         index_.push_back(order_[i]);
     }
-    while ((index_.size() - leaf.begin)%blockSize != 0)
+    while ((index_.size() - leaf.begin) % blockSize != 0)
     {
         index_.push_back(index_.back());
     }

@@ -17,7 +17,6 @@ namespace morph
 class PointCloud
 {
 public:
-
     // A leaf owns the sorted points [begin, end), whole blocks of
     // kernelSum's blockSize of which the first `count` are real and the rest
     // copies of the last one
@@ -48,7 +47,6 @@ public:
     const std::vector<Index>& index() const { return index_; }
 
 private:
-
     void split(const Vectors& x, Index begin, Index end);
     void addLeaf(const Vectors& x, Index begin, Index end);
 

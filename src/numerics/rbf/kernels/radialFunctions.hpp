@@ -35,7 +35,7 @@ struct WendlandC0
     static double value(double d2)
     {
         const double m = 1 - clampedRoot(d2);
-        return m*m;
+        return m * m;
     }
 };
 
@@ -44,8 +44,8 @@ struct WendlandC2
     static double value(double d2)
     {
         const double d = clampedRoot(d2);
-        const double m2 = (1 - d)*(1 - d);
-        return m2*m2*(4*d + 1);
+        const double m2 = (1 - d) * (1 - d);
+        return m2 * m2 * (4 * d + 1);
     }
 };
 
@@ -54,8 +54,8 @@ struct WendlandC4
     static double value(double d2)
     {
         const double d = clampedRoot(d2);
-        const double m2 = (1 - d)*(1 - d);
-        return m2*m2*m2*((35*d + 18)*d + 3)*(1.0/3.0);
+        const double m2 = (1 - d) * (1 - d);
+        return m2 * m2 * m2 * ((35 * d + 18) * d + 3) * (1.0 / 3.0);
     }
 };
 
@@ -64,9 +64,9 @@ struct WendlandC6
     static double value(double d2)
     {
         const double d = clampedRoot(d2);
-        const double m2 = (1 - d)*(1 - d);
-        const double m4 = m2*m2;
-        return m4*m4*(((32*d + 25)*d + 8)*d + 1);
+        const double m2 = (1 - d) * (1 - d);
+        const double m4 = m2 * m2;
+        return m4 * m4 * (((32 * d + 25) * d + 8) * d + 1);
     }
 };
 
@@ -77,7 +77,7 @@ struct Gaussian
 
 struct InverseMultiQuadric
 {
-    static double value(double d2) { return 1/std::sqrt(1 + d2); }
+    static double value(double d2) { return 1 / std::sqrt(1 + d2); }
 };
 
 struct MultiQuadric
@@ -91,28 +91,42 @@ struct ThinPlate
     {
         // d^2 log(d) = d^2 log(d^2)/2, and zero at the centre
         const double least = std::numeric_limits<double>::min();
-        return 0.5*d2*vectorMath::logarithm(d2 > least ? d2 : least);
+        return 0.5 * d2 * vectorMath::logarithm(d2 > least ? d2 : least);
     }
 };
 
 // Calls action(formula) with the formula of the given type, so that loops are
 // compiled once for each formula and the choice is made outside of them.
-template<class Action>
-inline __attribute__((always_inline))
-void dispatch(KernelType type, const Action& action)
+template <class Action>
+inline __attribute__((always_inline)) void
+dispatch(KernelType type, const Action& action)
 {
     switch (type)
     {
-        case KernelType::wendlandC0: action(WendlandC0()); break;
-        case KernelType::wendlandC2: action(WendlandC2()); break;
-        case KernelType::wendlandC4: action(WendlandC4()); break;
-        case KernelType::wendlandC6: action(WendlandC6()); break;
-        case KernelType::gaussian: action(Gaussian()); break;
-        case KernelType::inverseMultiQuadric:
-            action(InverseMultiQuadric());
-            break;
-        case KernelType::multiQuadric: action(MultiQuadric()); break;
-        case KernelType::thinPlate: action(ThinPlate()); break;
+    case KernelType::wendlandC0:
+        action(WendlandC0());
+        break;
+    case KernelType::wendlandC2:
+        action(WendlandC2());
+        break;
+    case KernelType::wendlandC4:
+        action(WendlandC4());
+        break;
+    case KernelType::wendlandC6:
+        action(WendlandC6());
+        break;
+    case KernelType::gaussian:
+        action(Gaussian());
+        break;
+    case KernelType::inverseMultiQuadric:
+        action(InverseMultiQuadric());
+        break;
+    case KernelType::multiQuadric:
+        action(MultiQuadric());
+        break;
+    case KernelType::thinPlate:
+        action(ThinPlate());
+        break;
     }
 }
 

@@ -7,14 +7,15 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) \
     && !defined(MORPH_NO_AVX512)
 
-// GCC's intrinsics contain a deliberately uninitialised variable
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+    // GCC's intrinsics contain a deliberately uninitialised variable
+    #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
-#include <algorithm>
-#include <immintrin.h>
+    #include <algorithm>
+    #include <immintrin.h>
 
-#define AVX512 __attribute__((target("avx512f")))
-#define AVX512_INLINE inline __attribute__((target("avx512f"), always_inline))
+    #define AVX512 __attribute__((target("avx512f")))
+    #define AVX512_INLINE \
+        inline __attribute__((target("avx512f"), always_inline))
 
 namespace morph
 {
@@ -25,7 +26,7 @@ namespace
 using Eight = __m512d;
 
 // Of a block of points, by eights
-constexpr int eights = blockSize/8;
+constexpr int eights = blockSize / 8;
 
 using Distances = Eight[eights];
 
@@ -66,11 +67,11 @@ struct ApproximateRoot
     {
         const Eight x = d2 + number(1e-300);
         const Eight y = _mm512_rsqrt14_pd(x);
-        const Eight root = x*y;
+        const Eight root = x * y;
         const Eight e = _mm512_fnmadd_pd(root, y, number(1));
-        Eight series = _mm512_fmadd_pd(e, number(5.0/16), number(3.0/8));
+        Eight series = _mm512_fmadd_pd(e, number(5.0 / 16), number(3.0 / 8));
         series = _mm512_fmadd_pd(series, e, number(0.5));
-        return _mm512_fmadd_pd(root*e, series, root);
+        return _mm512_fmadd_pd(root * e, series, root);
     }
 };
 
@@ -79,15 +80,15 @@ struct ApproximateRoot
 
 struct C0
 {
-    AVX512_INLINE static Eight value(Eight, Eight m) { return m*m; }
+    AVX512_INLINE static Eight value(Eight, Eight m) { return m * m; }
 };
 
 struct C2
 {
     AVX512_INLINE static Eight value(Eight d, Eight m)
     {
-        const Eight m2 = m*m;
-        return m2*m2*_mm512_fmadd_pd(d, number(4), number(1));
+        const Eight m2 = m * m;
+        return m2 * m2 * _mm512_fmadd_pd(d, number(4), number(1));
     }
 };
 
@@ -95,10 +96,10 @@ struct C4
 {
     AVX512_INLINE static Eight value(Eight d, Eight m)
     {
-        const Eight m2 = m*m;
+        const Eight m2 = m * m;
         Eight p = _mm512_fmadd_pd(d, number(35), number(18));
         p = _mm512_fmadd_pd(p, d, number(3));
-        return m2*m2*m2*p*number(1.0/3.0);
+        return m2 * m2 * m2 * p * number(1.0 / 3.0);
     }
 };
 
@@ -106,49 +107,39 @@ struct C6
 {
     AVX512_INLINE static Eight value(Eight d, Eight m)
     {
-        const Eight m2 = m*m;
-        const Eight m4 = m2*m2;
+        const Eight m2 = m * m;
+        const Eight m4 = m2 * m2;
         Eight p = _mm512_fmadd_pd(d, number(32), number(25));
         p = _mm512_fmadd_pd(p, d, number(8));
         p = _mm512_fmadd_pd(p, d, number(1));
-        return m4*m4*p;
+        return m4 * m4 * p;
     }
 };
 
 
 // Of a block of points from centre j
-template<class Root>
-AVX512_INLINE void distances
-(
-    const Columns3& points,
-    const Columns3& centres,
-    Index j,
-    Distances& d
-)
+template <class Root>
+AVX512_INLINE void distances(
+    const Columns3& points, const Columns3& centres, Index j, Distances& d)
 {
     const Eight cx = number(centres.x[j]);
     const Eight cy = number(centres.y[j]);
     const Eight cz = number(centres.z[j]);
     for (int k = 0; k < eights; ++k)
     {
-        const Eight dx = _mm512_loadu_pd(points.x + 8*k) - cx;
-        const Eight dy = _mm512_loadu_pd(points.y + 8*k) - cy;
-        const Eight dz = _mm512_loadu_pd(points.z + 8*k) - cz;
+        const Eight dx = _mm512_loadu_pd(points.x + 8 * k) - cx;
+        const Eight dy = _mm512_loadu_pd(points.y + 8 * k) - cy;
+        const Eight dz = _mm512_loadu_pd(points.z + 8 * k) - cz;
         const Eight d2 =
-            _mm512_fmadd_pd(dz, dz, _mm512_fmadd_pd(dy, dy, dx*dx));
+            _mm512_fmadd_pd(dz, dz, _mm512_fmadd_pd(dy, dy, dx * dx));
         d[k] = Root::of(d2);
     }
 }
 
 
-template<class Formula>
-AVX512_INLINE void addTerm
-(
-    const Distances& distances,
-    const Columns3& weights,
-    Index j,
-    Sums& sums
-)
+template <class Formula>
+AVX512_INLINE void addTerm(
+    const Distances& distances, const Columns3& weights, Index j, Sums& sums)
 {
     const Eight wx = number(weights.x[j]);
     const Eight wy = number(weights.y[j]);
@@ -164,17 +155,13 @@ AVX512_INLINE void addTerm
 }
 
 
-AVX512_INLINE void addTo
-(
-    double* sum,
-    const Eight (&a)[eights],
-    const Eight (&b)[eights]
-)
+AVX512_INLINE void
+addTo(double* sum, const Eight (&a)[eights], const Eight (&b)[eights])
 {
     for (int k = 0; k < eights; ++k)
     {
-        const Eight former = _mm512_loadu_pd(sum + 8*k);
-        _mm512_storeu_pd(sum + 8*k, former + (a[k] + b[k]));
+        const Eight former = _mm512_loadu_pd(sum + 8 * k);
+        _mm512_storeu_pd(sum + 8 * k, former + (a[k] + b[k]));
     }
 }
 
@@ -183,18 +170,11 @@ AVX512_INLINE void addTo
 // distances are a centre ahead of the terms: while a root is made, the terms of
 // the centre before keep the other units busy. `now` are the distances of the
 // group's first centre with a root, and become those of the next group's.
-template<class Formula>
-AVX512_INLINE void addGroup
-(
-    const Columns3& points,
-    const Columns3& centres,
-    const Columns3& weights,
-    const CentreGroup& group,
-    Index last,
-    Distances& now,
-    Sums& withRoots,
-    Sums& without
-)
+template <class Formula>
+AVX512_INLINE void addGroup(
+    const Columns3& points, const Columns3& centres, const Columns3& weights,
+    const CentreGroup& group, Index last, Distances& now, Sums& withRoots,
+    Sums& without)
 {
     Distances next;
     Index i = group.begin;
@@ -233,16 +213,10 @@ AVX512_INLINE void addGroup
 }
 
 
-template<class Formula>
-AVX512 void addBlock
-(
-    const Columns3& points,
-    const Columns3& centres,
-    const Columns3& weights,
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3],
-    Index begin
-)
+template <class Formula>
+AVX512 void addBlock(
+    const Columns3& points, const Columns3& centres, const Columns3& weights,
+    const std::vector<CentreGroup>& groups, double* const sums[3], Index begin)
 {
     const Index first = groups.front().begin;
     const Index last = groups.back().end - 1;
@@ -255,10 +229,8 @@ AVX512 void addBlock
     {
         Sums withRoots = {};
         Sums without = {};
-        addGroup<Formula>
-        (
-            points, centres, weights, group, last, now, withRoots, without
-        );
+        addGroup<Formula>(
+            points, centres, weights, group, last, now, withRoots, without);
         addTo(sums[0] + begin, withRoots.x, without.x);
         addTo(sums[1] + begin, withRoots.y, without.y);
         addTo(sums[2] + begin, withRoots.z, without.z);
@@ -266,24 +238,17 @@ AVX512 void addBlock
 }
 
 
-template<class Formula>
-void addBlocks
-(
-    const double* const points[3],
-    Index nPoints,
-    const Columns3& centres,
-    const Columns3& weights,
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3]
-)
+template <class Formula>
+void addBlocks(
+    const double* const points[3], Index nPoints, const Columns3& centres,
+    const Columns3& weights, const std::vector<CentreGroup>& groups,
+    double* const sums[3])
 {
     for (Index i = 0; i < nPoints; i += blockSize)
     {
-        addBlock<Formula>
-        (
-            {points[0] + i, points[1] + i, points[2] + i},
-            centres, weights, groups, sums, i
-        );
+        addBlock<Formula>(
+            {points[0] + i, points[1] + i, points[2] + i}, centres, weights,
+            groups, sums, i);
     }
 }
 
@@ -294,25 +259,16 @@ bool hasWendlandSum(KernelType type)
 {
     static const bool hasInstructions = __builtin_cpu_supports("avx512f");
     return hasInstructions
-     && (
-            type == KernelType::wendlandC0
-         || type == KernelType::wendlandC2
-         || type == KernelType::wendlandC4
-         || type == KernelType::wendlandC6
-        );
+        && (type == KernelType::wendlandC0 || type == KernelType::wendlandC2
+            || type == KernelType::wendlandC4
+            || type == KernelType::wendlandC6);
 }
 
 
-void addWendlandSum
-(
-    KernelType type,
-    const double* const points[3],
-    Index nPoints,
-    const double* const centres[3],
-    const double* const weights[3],
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3]
-)
+void addWendlandSum(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const double* const weights[3],
+    const std::vector<CentreGroup>& groups, double* const sums[3])
 {
     if (groups.empty())
     {
@@ -320,11 +276,10 @@ void addWendlandSum
     }
     const Columns3 c{centres[0], centres[1], centres[2]};
     const Columns3 w{weights[0], weights[1], weights[2]};
-    const auto add =
-        type == KernelType::wendlandC0 ? addBlocks<C0>
-      : type == KernelType::wendlandC2 ? addBlocks<C2>
-      : type == KernelType::wendlandC4 ? addBlocks<C4>
-      : addBlocks<C6>;
+    const auto add = type == KernelType::wendlandC0 ? addBlocks<C0>
+        : type == KernelType::wendlandC2            ? addBlocks<C2>
+        : type == KernelType::wendlandC4            ? addBlocks<C4>
+                                                    : addBlocks<C6>;
     add(points, nPoints, c, w, groups, sums);
 }
 
@@ -341,17 +296,11 @@ bool hasWendlandSum(KernelType)
 }
 
 
-void addWendlandSum
-(
-    KernelType,
-    const double* const[3],
-    Index,
-    const double* const[3],
-    const double* const[3],
-    const std::vector<CentreGroup>&,
-    double* const[3]
-)
-{}
+void addWendlandSum(
+    KernelType, const double* const[3], Index, const double* const[3],
+    const double* const[3], const std::vector<CentreGroup>&, double* const[3])
+{
+}
 
 } // namespace morph
 

@@ -22,16 +22,10 @@ namespace morph
 bool hasWendlandSum(KernelType type);
 
 // As addKernelSum
-void addWendlandSum
-(
-    KernelType type,
-    const double* const points[3],
-    Index nPoints,
-    const double* const centres[3],
-    const double* const weights[3],
-    const std::vector<CentreGroup>& groups,
-    double* const sums[3]
-);
+void addWendlandSum(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const double* const weights[3],
+    const std::vector<CentreGroup>& groups, double* const sums[3]);
 
 } // namespace morph
 

@@ -62,7 +62,7 @@ Matrix BlockTriangularFactor::solved(Matrix b) const
         auto x = b.middleRows(end, m);
         if (end > 0)
         {
-            x.noalias() -= panel.leftCols(end)*b.topRows(end);
+            x.noalias() -= panel.leftCols(end) * b.topRows(end);
         }
         panel.rightCols(m).triangularView<Eigen::Lower>().solveInPlace(x);
         end += m;
@@ -79,11 +79,14 @@ Matrix BlockTriangularFactor::solvedTransposed(Matrix b) const
         const Index m = panel->rows();
         begin -= m;
         auto x = b.middleRows(begin, m);
-        panel->rightCols(m).transpose().triangularView<Eigen::Upper>()
+        panel->rightCols(m)
+            .transpose()
+            .triangularView<Eigen::Upper>()
             .solveInPlace(x);
         if (begin > 0)
         {
-            b.topRows(begin).noalias() -= panel->leftCols(begin).transpose()*x;
+            b.topRows(begin).noalias() -=
+                panel->leftCols(begin).transpose() * x;
         }
     }
     return b;

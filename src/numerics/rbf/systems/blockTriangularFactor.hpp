@@ -18,7 +18,6 @@ namespace morph
 class BlockTriangularFactor
 {
 public:
-
     Index size() const { return size_; }
 
     // [L 0; above^T corner], above: size x m, corner: m x m, of which only the
@@ -35,7 +34,6 @@ public:
     Matrix solvedTransposed(Matrix b) const;
 
 private:
-
     Index size_ = 0;
     std::vector<Matrix> panels_;
 };

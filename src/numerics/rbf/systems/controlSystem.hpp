@@ -18,14 +18,13 @@ namespace morph
 class ControlSystem
 {
 public:
-
     virtual ~ControlSystem() = default;
 
     // Indices into a list of candidates
     struct Choice
     {
         std::vector<Index> taken;
-        std::vector<Index> singular;   // can never be taken
+        std::vector<Index> singular; // can never be taken
     };
 
     // Candidates of the list to append next, at most `most`. The first of the
@@ -33,12 +32,9 @@ public:
     // in the list exceed `least`, and once one is taken also `outside`.
     // This default takes the first alone, and leaves it to append() to find
     // out whether the system is singular with it.
-    virtual Choice choose
-    (
-        const std::vector<Candidate>& /* list */,
-        Index /* most */,
-        double /* least */,
-        double /* outside */
+    virtual Choice choose(
+        const std::vector<Candidate>& /* list */, Index /* most */,
+        double /* least */, double /* outside */
     )
     {
         Choice choice;
@@ -49,11 +45,9 @@ public:
     // Appends the chosen points of the list and returns which were accepted:
     // points with which the system would be singular to round-off are left out.
     // After choose() it must be the list chosen from.
-    virtual std::vector<bool> append
-    (
+    virtual std::vector<bool> append(
         const std::vector<Candidate>& list,
-        const std::vector<Index>& chosen
-    ) = 0;
+        const std::vector<Index>& chosen) = 0;
 
     // New prescribed values for the points, in the order they were appended
     virtual void setValues(const std::vector<Vector3>& values) = 0;
@@ -62,11 +56,8 @@ public:
     virtual void solve(RbfInterpolant& interpolant) = 0;
 
     // The interpolant that was solved for, at this rank's candidates: n x 3
-    virtual Vectors evaluate
-    (
-        const RbfInterpolant& interpolant,
-        const PointCloud& candidates
-    ) const
+    virtual Vectors evaluate(
+        const RbfInterpolant& interpolant, const PointCloud& candidates) const
     {
         return interpolant(candidates);
     }

@@ -52,11 +52,8 @@ Matrix selectColumns(const Matrix& a, const std::vector<Index>& columns)
 }
 
 
-ControlPoints selectPoints
-(
-    const ControlPoints& list,
-    const std::vector<Index>& which
-)
+ControlPoints
+selectPoints(const ControlPoints& list, const std::vector<Index>& which)
 {
     ControlPoints points;
     for (const Index i : which)
@@ -68,11 +65,8 @@ ControlPoints selectPoints
 
 
 // The rows in the system of points of a list
-std::vector<Index> rowsOf
-(
-    const std::vector<Index>& points,
-    const std::vector<Index>& offset
-)
+std::vector<Index>
+rowsOf(const std::vector<Index>& points, const std::vector<Index>& offset)
 {
     std::vector<Index> rows;
     for (const Index i : points)
@@ -108,13 +102,9 @@ std::vector<Index> offsets(const ControlPoints& points)
 
 
 // t_ij C_i^T C_j
-Matrix constrained
-(
-    const Matrix& t,
-    const ControlPoints& rows,
-    const ControlPoints& columns,
-    bool onlyLower = false
-)
+Matrix constrained(
+    const Matrix& t, const ControlPoints& rows, const ControlPoints& columns,
+    bool onlyLower = false)
 {
     // The directions of all rows, and whose they are
     std::vector<Index> point;
@@ -140,7 +130,7 @@ Matrix constrained
             for (Index i = onlyLower ? column : 0; i < n; ++i)
             {
                 e(i, column) = t(point[i], j)
-                   *(c(i, 0)*d[0] + c(i, 1)*d[1] + c(i, 2)*d[2]);
+                    * (c(i, 0) * d[0] + c(i, 1) * d[1] + c(i, 2) * d[2]);
             }
         }
     }
@@ -151,33 +141,26 @@ Matrix constrained
 
 
 GramFactor::GramFactor(const Kernel& kernel)
-:
-    GramFactor(kernel, AffineBasis(), Matrix(0, 3))
+: GramFactor(kernel, AffineBasis(), Matrix(0, 3))
 {
     if (kernel.order() > 0)
     {
-        throw std::invalid_argument
-        (
-            "a conditionally definite kernel needs a polynomial"
-        );
+        throw std::invalid_argument(
+            "a conditionally definite kernel needs a polynomial");
     }
 }
 
 
-GramFactor::GramFactor
-(
-    const Kernel& kernel,
-    const AffineBasis& basis,
-    const Matrix& nodeValues
-)
-:
-    kernel_(kernel),
-    basis_(basis),
-    nodeValues_(nodeValues),
-    nodeKernel_(kernelMatrix(kernel, basis.nodes(), basis.nodes())),
-    xM_(0, 3),
-    xS_(0, 3)
-{}
+GramFactor::GramFactor(
+    const Kernel& kernel, const AffineBasis& basis, const Matrix& nodeValues)
+: kernel_(kernel),
+  basis_(basis),
+  nodeValues_(nodeValues),
+  nodeKernel_(kernelMatrix(kernel, basis.nodes(), basis.nodes())),
+  xM_(0, 3),
+  xS_(0, 3)
+{
+}
 
 
 Columns GramFactor::centres() const
@@ -197,8 +180,8 @@ Matrix GramFactor::kernelBlock(const Columns& a, const Columns& b) const
         const Matrix lb = basis_.values(b);
         const Matrix ka = kernelMatrix(kernel_, a, basis_.nodes());
         const Matrix kb = kernelMatrix(kernel_, b, basis_.nodes());
-        k.noalias() -= la*(kb - lb*nodeKernel_).transpose();
-        k.noalias() -= ka*lb.transpose();
+        k.noalias() -= la * (kb - lb * nodeKernel_).transpose();
+        k.noalias() -= ka * lb.transpose();
     }
     return k;
 }
@@ -215,13 +198,13 @@ double GramFactor::pivotScale(const Vector3& x) const
         largest = std::max(largest, nodeKernel_.cwiseAbs().maxCoeff());
     }
     const double sum = 1 + basis_.values(p).cwiseAbs().sum();
-    return sum*sum*largest;
+    return sum * sum * largest;
 }
 
 
 Matrix GramFactor::shift(const Columns& x) const
 {
-    return basis_.values(x)*nodeValues_;
+    return basis_.values(x) * nodeValues_;
 }
 
 
@@ -254,27 +237,22 @@ GramFactor::Residual GramFactor::residual(const ControlPoints& list) const
         return result;
     }
     result.offset = offsets(list);
-    result.Q = R_.solved
-    (
-        constrained(besideSliding(x, result.Y), sliding_, list)
-    );
+    result.Q =
+        R_.solved(constrained(besideSliding(x, result.Y), sliding_, list));
     return result;
 }
 
 
-Matrix GramFactor::columns
-(
-    const ControlPoints& list,
-    const Residual& residual,
-    const std::vector<Index>& which
-) const
+Matrix GramFactor::columns(
+    const ControlPoints& list, const Residual& residual,
+    const std::vector<Index>& which) const
 {
     const ControlPoints some = selectPoints(list, which);
     Matrix t = kernelBlock(positions(list), positions(some));
     if (residual.Y.rows() > 0)
     {
         t.noalias() -=
-            residual.Y.transpose()*selectColumns(residual.Y, which);
+            residual.Y.transpose() * selectColumns(residual.Y, which);
     }
     if (residual.scalar)
     {
@@ -284,7 +262,7 @@ Matrix GramFactor::columns
     if (residual.Q.rows() > 0)
     {
         w.noalias() -= residual.Q.transpose()
-           *selectColumns(residual.Q, rowsOf(which, residual.offset));
+            * selectColumns(residual.Q, rowsOf(which, residual.offset));
     }
     return w;
 }
@@ -298,12 +276,9 @@ std::vector<bool> GramFactor::append(const ControlPoints& list)
 }
 
 
-std::vector<bool> GramFactor::append
-(
-    const ControlPoints& list,
-    const std::vector<Index>& which,
-    Residual&& residual
-)
+std::vector<bool> GramFactor::append(
+    const ControlPoints& list, const std::vector<Index>& which,
+    Residual&& residual)
 {
     std::vector<Index> P, S;
     for (const Index i : which)
@@ -312,9 +287,9 @@ std::vector<bool> GramFactor::append
     }
     const Matrix YP = selectColumns(residual.Y, P);
     Matrix YS = selectColumns(residual.Y, S);
-    Matrix Q =
-        residual.scalar ? Matrix()
-      : selectColumns(residual.Q, rowsOf(S, residual.offset));
+    Matrix Q = residual.scalar
+        ? Matrix()
+        : selectColumns(residual.Q, rowsOf(S, residual.offset));
     residual = Residual();
 
     Index nextPrescribed = prescribed_.size();
@@ -322,15 +297,14 @@ std::vector<bool> GramFactor::append
     const ControlPoints prescribed = selectPoints(list, P);
     const ControlPoints sliding = selectPoints(list, S);
     Matrix l;
-    const bool prescribedIn =
-        P.empty() || appendPrescribed(prescribed, YP, l);
+    const bool prescribedIn = P.empty() || appendPrescribed(prescribed, YP, l);
 
     if (prescribedIn && !P.empty() && !S.empty())
     {
         // What the prescribed ones take from the sliding ones
         const Columns x = positions(sliding);
         Matrix rows = kernelBlock(positions(prescribed), x);
-        rows.noalias() -= YP.transpose()*YS;
+        rows.noalias() -= YP.transpose() * YS;
         l.triangularView<Eigen::Lower>().solveInPlace(rows);
         YS.conservativeResize(YS.rows() + rows.rows(), S.size());
         YS.bottomRows(rows.rows()) = rows;
@@ -353,12 +327,8 @@ std::vector<bool> GramFactor::append
 }
 
 
-bool GramFactor::appendPrescribed
-(
-    const ControlPoints& points,
-    const Matrix& Y,
-    Matrix& l
-)
+bool GramFactor::appendPrescribed(
+    const ControlPoints& points, const Matrix& Y, Matrix& l)
 {
     const Columns x = positions(points);
     l = kernelBlock(x, x);
@@ -391,12 +361,8 @@ bool GramFactor::appendPrescribed
 }
 
 
-bool GramFactor::appendSliding
-(
-    const ControlPoints& points,
-    const Matrix& Y,
-    const Matrix& Q
-)
+bool GramFactor::appendSliding(
+    const ControlPoints& points, const Matrix& Y, const Matrix& Q)
 {
     const Columns x = positions(points);
     Matrix T = kernelBlock(x, x);
@@ -422,11 +388,8 @@ bool GramFactor::appendSliding
 }
 
 
-void GramFactor::setValues
-(
-    const std::vector<Vector3>& values,
-    const Matrix& nodeValues
-)
+void GramFactor::setValues(
+    const std::vector<Vector3>& values, const Matrix& nodeValues)
 {
     nodeValues_ = nodeValues;
     for (std::size_t i = 0; i < entries_.size(); ++i)
@@ -471,8 +434,7 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
         for (Index i = 0; i < nS; ++i)
         {
             const ControlPoint& p = sliding_[i];
-            const Vector3 weight =
-                p.C()*alpha.middleRows(offset[i], p.k);
+            const Vector3 weight = p.C() * alpha.middleRows(offset[i], p.k);
             gamma.row(r + nM + i) = weight.transpose();
         }
         z -= Y_.times(gamma.bottomRows(nS));
@@ -483,17 +445,13 @@ void GramFactor::solve(RbfInterpolant& interpolant) const
     if (r > 0)
     {
         // Side conditions, then the polynomial that makes the nodes exact
-        gamma.topRows(r) =
-           -basis_.values(x.bottomRows(nM + nS)).transpose()
-           *gamma.bottomRows(nM + nS);
+        gamma.topRows(r) = -basis_.values(x.bottomRows(nM + nS)).transpose()
+            * gamma.bottomRows(nM + nS);
         const Matrix p =
-            nodeValues_ - kernelMatrix(kernel_, basis_.nodes(), x)*gamma;
-        interpolant.setPolynomial
-        (
-            basis_.nodes().row(0).transpose(),
-            p.row(0).transpose(),
-            basis_.gradient(p)
-        );
+            nodeValues_ - kernelMatrix(kernel_, basis_.nodes(), x) * gamma;
+        interpolant.setPolynomial(
+            basis_.nodes().row(0).transpose(), p.row(0).transpose(),
+            basis_.gradient(p));
     }
     interpolant.set(x, gamma);
 }

@@ -44,18 +44,14 @@ namespace morph
 class GramFactor
 {
 public:
-
     // Without a polynomial; kernels of conditional order need one
     explicit GramFactor(const Kernel& kernel);
 
     // With a linear polynomial on the nodes of the basis, whose displacements
     // are nodeValues: r x 3 [m]
-    GramFactor
-    (
-        const Kernel& kernel,
-        const AffineBasis& basis,
-        const Matrix& nodeValues
-    );
+    GramFactor(
+        const Kernel& kernel, const AffineBasis& basis,
+        const Matrix& nodeValues);
 
     // Control points appended (the nodes of the polynomial do not count)
     Index size() const { return entries_.size(); }
@@ -69,43 +65,34 @@ public:
     // slide, one row of W stands for the three of a point.
     struct Residual
     {
-        std::vector<Index> offset;   // first row of each point, and the end
+        std::vector<Index> offset; // first row of each point, and the end
         bool scalar;
 
-        Matrix Y;      // L^-1 K_MK
-        Matrix Q;      // R^-1 of K_SK - Y_S^T Y with its directions
+        Matrix Y; // L^-1 K_MK
+        Matrix Q; // R^-1 of K_SK - Y_S^T Y with its directions
     };
     Residual residual(const ControlPoints& list) const;
 
     // The columns of W that belong to some points of the list. W whole would be
     // larger than the factors themselves
-    Matrix columns
-    (
-        const ControlPoints& list,
-        const Residual& residual,
-        const std::vector<Index>& which
-    ) const;
+    Matrix columns(
+        const ControlPoints& list, const Residual& residual,
+        const std::vector<Index>& which) const;
 
     // Appends points of a list and tells which of them are in: those with
     // which the system would be singular to round-off are left out. Takes the
     // residual, to make room.
-    std::vector<bool> append
-    (
-        const ControlPoints& list,
-        const std::vector<Index>& which,
-        Residual&& residual
-    );
+    std::vector<bool> append(
+        const ControlPoints& list, const std::vector<Index>& which,
+        Residual&& residual);
 
     // Appends all points of a list
     std::vector<bool> append(const ControlPoints& list);
 
     // New prescribed values for the points, in the order they were appended,
     // and for the nodes of the polynomial
-    void setValues
-    (
-        const std::vector<Vector3>& values,
-        const Matrix& nodeValues
-    );
+    void
+    setValues(const std::vector<Vector3>& values, const Matrix& nodeValues);
 
     // Solves for the weights and hands them to the interpolant
     void solve(RbfInterpolant& interpolant) const;
@@ -115,7 +102,6 @@ public:
     double pivotScale(const Vector3& x) const;
 
 private:
-
     struct Entry
     {
         bool slides;
@@ -124,18 +110,10 @@ private:
 
     Matrix kernelBlock(const Columns& a, const Columns& b) const;
     Matrix besideSliding(const Columns& x, const Matrix& Y) const;
-    bool appendPrescribed
-    (
-        const ControlPoints& points,
-        const Matrix& Y,
-        Matrix& l
-    );
-    bool appendSliding
-    (
-        const ControlPoints& points,
-        const Matrix& Y,
-        const Matrix& Q
-    );
+    bool
+    appendPrescribed(const ControlPoints& points, const Matrix& Y, Matrix& l);
+    bool appendSliding(
+        const ControlPoints& points, const Matrix& Y, const Matrix& Q);
     Matrix shift(const Columns& x) const;
 
     Kernel kernel_;
@@ -154,7 +132,7 @@ private:
     ControlPoints sliding_;
     Columns xS_;
     GrowingMatrix Y_;
-    Matrix T_;   // lower triangle
+    Matrix T_; // lower triangle
     BlockTriangularFactor R_;
 };
 

@@ -55,8 +55,7 @@ void GrowingMatrix::subtractTransposedTimes(const Matrix& b, Matrix& from) const
     Index begin = 0;
     for (const Matrix& panel : panels_)
     {
-        from.noalias() -=
-            panel.transpose()*b.middleRows(begin, panel.rows());
+        from.noalias() -= panel.transpose() * b.middleRows(begin, panel.rows());
         begin += panel.rows();
     }
 }
@@ -68,7 +67,7 @@ Matrix GrowingMatrix::times(const Matrix& b) const
     Index begin = 0;
     for (const Matrix& panel : panels_)
     {
-        x.middleRows(begin, panel.rows()).noalias() = panel*b;
+        x.middleRows(begin, panel.rows()).noalias() = panel * b;
         begin += panel.rows();
     }
     return x;

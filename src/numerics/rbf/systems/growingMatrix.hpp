@@ -18,7 +18,6 @@ namespace morph
 class GrowingMatrix
 {
 public:
-
     Index rows() const { return rows_; }
 
     Index cols() const { return cols_; }
@@ -36,7 +35,6 @@ public:
     Matrix times(const Matrix& b) const;
 
 private:
-
     Index rows_ = 0;
     Index cols_ = 0;
     std::vector<Matrix> panels_;

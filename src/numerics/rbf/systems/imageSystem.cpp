@@ -41,11 +41,8 @@ Columns directions(const ControlPoints& points)
 
 
 // The rows among the conditions of some of the points
-std::vector<Index> rowsOf
-(
-    const std::vector<Index>& points,
-    const std::vector<Index>& first
-)
+std::vector<Index>
+rowsOf(const std::vector<Index>& points, const std::vector<Index>& first)
 {
     std::vector<Index> rows;
     for (const Index i : points)
@@ -76,17 +73,13 @@ Eigen::VectorXd values(const ControlPoints& points)
 
 
 ImageSystem::ImageSystem(const Kernel& kernel, const ImageGroup& images)
-:
-    kernel_(kernel),
-    images_(images)
-{}
+: kernel_(kernel),
+  images_(images)
+{
+}
 
 
-Matrix ImageSystem::block
-(
-    const ControlPoints& a,
-    const ControlPoints& b
-) const
+Matrix ImageSystem::block(const ControlPoints& a, const ControlPoints& b) const
 {
     const std::vector<Index> rows = firstRows(a);
     const std::vector<Index> columns = firstRows(b);
@@ -98,7 +91,7 @@ Matrix ImageSystem::block
     for (const RigidMap& map : images_.maps())
     {
         const Matrix phi = kernelMatrix(kernel_, xa, map(xb));
-        const Matrix cosines = da*(db*map.R.transpose()).transpose();
+        const Matrix cosines = da * (db * map.R.transpose()).transpose();
         for (std::size_t j = 0; j < b.size(); ++j)
         {
             if (phi.col(j).isZero(0))
@@ -111,7 +104,7 @@ Matrix ImageSystem::block
             }
             for (Index q = columns[j]; q < columns[j + 1]; ++q)
             {
-                G.col(q).array() += factor.array()*cosines.col(q).array();
+                G.col(q).array() += factor.array() * cosines.col(q).array();
             }
         }
     }
@@ -126,24 +119,18 @@ std::vector<double> ImageSystem::eliminateFrom(const ControlPoints& points)
     std::vector<double> scale;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-        scale.push_back
-        (
-            W_.diagonal().segment(first_[i], points[i].k).maxCoeff()
-        );
+        scale.push_back(
+            W_.diagonal().segment(first_[i], points[i].k).maxCoeff());
     }
     Y_ = L_.solved(block(points_, points));
-    W_.noalias() -= Y_.transpose()*Y_;
+    W_.noalias() -= Y_.transpose() * Y_;
     return scale;
 }
 
 
-ControlSystem::Choice ImageSystem::choose
-(
-    const std::vector<Candidate>& list,
-    Index most,
-    double least,
-    double outside
-)
+ControlSystem::Choice ImageSystem::choose(
+    const std::vector<Candidate>& list, Index most, double least,
+    double outside)
 {
     ControlPoints points;
     for (const Candidate& entry : list)
@@ -158,8 +145,7 @@ ControlSystem::Choice ImageSystem::choose
         r.middleRows(first_[i], points[i].k) =
             list[i].residual.head(points[i].k);
     }
-    return pivotedCholesky
-    (
+    return pivotedCholesky(
         [this](const std::vector<Index>& which)
         {
             const std::vector<Index> columns = rowsOf(which, first_);
@@ -170,16 +156,12 @@ ControlSystem::Choice ImageSystem::choose
             }
             return w;
         },
-        first_, r, scale, most, least, outside
-    );
+        first_, r, scale, most, least, outside);
 }
 
 
-std::vector<bool> ImageSystem::append
-(
-    const std::vector<Candidate>& list,
-    const std::vector<Index>& chosen
-)
+std::vector<bool> ImageSystem::append(
+    const std::vector<Candidate>& list, const std::vector<Index>& chosen)
 {
     std::vector<Index> which = chosen;
     if (W_.size() == 0)
@@ -239,7 +221,7 @@ void ImageSystem::solve(RbfInterpolant& interpolant)
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
         const ControlPoint& p = points_[i];
-        weights.row(i) = (p.C()*alpha.segment(row, p.k)).transpose();
+        weights.row(i) = (p.C() * alpha.segment(row, p.k)).transpose();
         row += p.k;
     }
     images_.replicate(centres, weights);

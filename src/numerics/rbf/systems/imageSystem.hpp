@@ -18,27 +18,18 @@ namespace morph
 // kernel is a 3 x 3 matrix, and the directions of a point do not separate as
 // they do in GramFactor. Points have to be restricted to what the group allows
 // (ImageGroup::restricted).
-class ImageSystem
-:
-    public ControlSystem
+class ImageSystem : public ControlSystem
 {
 public:
-
     ImageSystem(const Kernel& kernel, const ImageGroup& images);
 
-    Choice choose
-    (
-        const std::vector<Candidate>& list,
-        Index most,
-        double least,
-        double outside
-    ) override;
+    Choice choose(
+        const std::vector<Candidate>& list, Index most, double least,
+        double outside) override;
 
-    std::vector<bool> append
-    (
+    std::vector<bool> append(
         const std::vector<Candidate>& list,
-        const std::vector<Index>& chosen
-    ) override;
+        const std::vector<Index>& chosen) override;
 
     void setValues(const std::vector<Vector3>& values) override;
 
@@ -46,7 +37,6 @@ public:
     void solve(RbfInterpolant& interpolant) override;
 
 private:
-
     // G of the conditions of a with those of b
     Matrix block(const ControlPoints& a, const ControlPoints& b) const;
 

@@ -13,26 +13,17 @@ namespace morph
 namespace
 {
 
-GramFactor factorOf
-(
-    const Kernel& kernel,
-    const Columns& nodes,
-    const Matrix& nodeValues
-)
+GramFactor
+factorOf(const Kernel& kernel, const Columns& nodes, const Matrix& nodeValues)
 {
-    return
-        nodes.rows() > 0
-      ? GramFactor(kernel, AffineBasis(nodes), nodeValues)
-      : GramFactor(kernel);
+    return nodes.rows() > 0 ? GramFactor(kernel, AffineBasis(nodes), nodeValues)
+                            : GramFactor(kernel);
 }
 
 
 // The residuals of the list as the right-hand side of its system
-Matrix rightHandSide
-(
-    const std::vector<Candidate>& list,
-    const GramFactor::Residual& system
-)
+Matrix rightHandSide(
+    const std::vector<Candidate>& list, const GramFactor::Residual& system)
 {
     Matrix r(system.offset.back(), system.scalar ? 3 : 1);
     for (std::size_t p = 0; p < list.size(); ++p)
@@ -53,25 +44,17 @@ Matrix rightHandSide
 } // namespace
 
 
-IncrementalSystem::IncrementalSystem
-(
-    const Kernel& kernel,
-    const Columns& nodes,
-    const Matrix& nodeValues
-)
-:
-    nNodes_(nodes.rows()),
-    factor_(factorOf(kernel, nodes, nodeValues))
-{}
+IncrementalSystem::IncrementalSystem(
+    const Kernel& kernel, const Columns& nodes, const Matrix& nodeValues)
+: nNodes_(nodes.rows()),
+  factor_(factorOf(kernel, nodes, nodeValues))
+{
+}
 
 
-ControlSystem::Choice IncrementalSystem::choose
-(
-    const std::vector<Candidate>& list,
-    Index most,
-    double least,
-    double outside
-)
+ControlSystem::Choice IncrementalSystem::choose(
+    const std::vector<Candidate>& list, Index most, double least,
+    double outside)
 {
     points_.clear();
     for (const Candidate& entry : list)
@@ -84,27 +67,16 @@ ControlSystem::Choice IncrementalSystem::choose
     {
         scale.push_back(factor_.pivotScale(p.position));
     }
-    return pivotedCholesky
-    (
+    return pivotedCholesky(
         [this](const std::vector<Index>& which)
-        {
-            return factor_.columns(points_, residual_, which);
-        },
-        residual_.offset,
-        rightHandSide(list, residual_),
-        scale,
-        most,
-        least,
-        outside
-    );
+        { return factor_.columns(points_, residual_, which); },
+        residual_.offset, rightHandSide(list, residual_), scale, most, least,
+        outside);
 }
 
 
-std::vector<bool> IncrementalSystem::append
-(
-    const std::vector<Candidate>& list,
-    const std::vector<Index>& chosen
-)
+std::vector<bool> IncrementalSystem::append(
+    const std::vector<Candidate>& list, const std::vector<Index>& chosen)
 {
     if (points_.empty())
     {
@@ -129,11 +101,9 @@ void IncrementalSystem::setValues(const std::vector<Vector3>& values)
     {
         nodeValues.row(i) = values[i].transpose();
     }
-    factor_.setValues
-    (
+    factor_.setValues(
         std::vector<Vector3>(values.begin() + nNodes_, values.end()),
-        nodeValues
-    );
+        nodeValues);
 }
 
 

@@ -21,41 +21,27 @@ namespace morph
 // the point with the largest error left. A point chosen so takes its influence
 // on the others of the list with it, and about as many points are selected in
 // a tenth of the sweeps.
-class IncrementalSystem
-:
-    public ControlSystem
+class IncrementalSystem : public ControlSystem
 {
 public:
-
     // nodes, nodeValues: r x 3, those of a linear polynomial; r = 0 for none.
     // The nodes are the first points of the system
-    IncrementalSystem
-    (
-        const Kernel& kernel,
-        const Columns& nodes,
-        const Matrix& nodeValues
-    );
+    IncrementalSystem(
+        const Kernel& kernel, const Columns& nodes, const Matrix& nodeValues);
 
-    Choice choose
-    (
-        const std::vector<Candidate>& list,
-        Index most,
-        double least,
-        double outside
-    ) override;
+    Choice choose(
+        const std::vector<Candidate>& list, Index most, double least,
+        double outside) override;
 
-    std::vector<bool> append
-    (
+    std::vector<bool> append(
         const std::vector<Candidate>& list,
-        const std::vector<Index>& chosen
-    ) override;
+        const std::vector<Index>& chosen) override;
 
     void setValues(const std::vector<Vector3>& values) override;
 
     void solve(RbfInterpolant& interpolant) override;
 
 private:
-
     Index nNodes_;
     GramFactor factor_;
 

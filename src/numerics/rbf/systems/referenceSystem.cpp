@@ -28,23 +28,19 @@ Eigen::Matrix3d completed(const ControlPoint& p)
 } // namespace
 
 
-Matrix referenceSystem
-(
-    const Kernel& kernel,
-    const ControlPoints& conditions,
-    const ControlPoints& weights,
-    bool same
-)
+Matrix referenceSystem(
+    const Kernel& kernel, const ControlPoints& conditions,
+    const ControlPoints& weights, bool same)
 {
     const Matrix phi =
         kernelMatrix(kernel, positions(conditions), positions(weights));
-    Matrix a = Matrix::Zero(3*phi.rows(), 3*phi.cols());
+    Matrix a = Matrix::Zero(3 * phi.rows(), 3 * phi.cols());
     for (Index j = 0; j < phi.cols(); ++j)
     {
         for (Index i = 0; i < phi.rows(); ++i)
         {
             const ControlPoint& p = conditions[i];
-            a.block(3*i, 3*j, p.k, 3) = phi(i, j)*p.C().transpose();
+            a.block(3 * i, 3 * j, p.k, 3) = phi(i, j) * p.C().transpose();
         }
     }
     if (same)
@@ -52,7 +48,7 @@ Matrix referenceSystem
         for (Index i = 0; i < phi.rows(); ++i)
         {
             const int free = 3 - conditions[i].k;
-            a.block(3*i + conditions[i].k, 3*i, free, 3) =
+            a.block(3 * i + conditions[i].k, 3 * i, free, 3) =
                 completed(conditions[i]).rightCols(free).transpose();
         }
     }
@@ -62,10 +58,10 @@ Matrix referenceSystem
 
 Matrix paperValues(const ControlPoints& conditions)
 {
-    Matrix s = Matrix::Zero(3*conditions.size(), 1);
+    Matrix s = Matrix::Zero(3 * conditions.size(), 1);
     for (std::size_t i = 0; i < conditions.size(); ++i)
     {
-        s.block(3*i, 0, conditions[i].k, 1) = conditions[i].g();
+        s.block(3 * i, 0, conditions[i].k, 1) = conditions[i].g();
     }
     return s;
 }
@@ -73,7 +69,7 @@ Matrix paperValues(const ControlPoints& conditions)
 
 Columns paperWeights(const Matrix& gamma)
 {
-    return Eigen::Map<const Vectors>(gamma.data(), gamma.rows()/3, 3);
+    return Eigen::Map<const Vectors>(gamma.data(), gamma.rows() / 3, 3);
 }
 
 } // namespace morph

@@ -18,13 +18,9 @@ namespace morph
 // of m points: 3 n x 3 m, point after point. Per point k rows
 // C^T sum_j phi_ij gamma_j, and 3 - k rows t . gamma_i = 0 (4, 5). The latter
 // are there only where both are the same list, same = true.
-Matrix referenceSystem
-(
-    const Kernel& kernel,
-    const ControlPoints& conditions,
-    const ControlPoints& weights,
-    bool same
-);
+Matrix referenceSystem(
+    const Kernel& kernel, const ControlPoints& conditions,
+    const ControlPoints& weights, bool same);
 
 // Its right-hand side: g, and zero in the rows of (4, 5)
 Matrix paperValues(const ControlPoints& conditions);
@@ -33,11 +29,11 @@ Matrix paperValues(const ControlPoints& conditions);
 Columns paperWeights(const Matrix& gamma);
 
 // Is a factorised matrix singular to round-off?
-template<class LU>
+template <class LU>
 bool singular(const LU& lu)
 {
     const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-    return !(pivots.minCoeff() > 1e-14*pivots.maxCoeff());
+    return !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff());
 }
 
 } // namespace morph

@@ -12,16 +12,11 @@
 namespace morph
 {
 
-SchurSystem::SchurSystem
-(
-    const Kernel& kernel,
-    double restartFraction,
-    const ControlPoints& candidates,
-    Communicator& communicator
-)
-:
-    kernel_(kernel),
-    restartFraction_(restartFraction)
+SchurSystem::SchurSystem(
+    const Kernel& kernel, double restartFraction,
+    const ControlPoints& candidates, Communicator& communicator)
+: kernel_(kernel),
+  restartFraction_(restartFraction)
 {
     const std::vector<double> sizes =
         communicator.gather({double(candidates.size())});
@@ -32,35 +27,28 @@ SchurSystem::SchurSystem
     }
     const Index all = firstOfRank_.back();
 
-    requireMemory
-    (
-        8.0*double(all)*double(candidates.size()),
+    requireMemory(
+        8.0 * double(all) * double(candidates.size()),
         "the matrix of all pairs of " + std::to_string(all)
-      + " control points, which algorithm schur assembles,",
-        communicator
-    );
+            + " control points, which algorithm schur assembles,",
+        communicator);
 
     const Columns mine = positions(candidates);
-    const std::vector<double> x = communicator.gather
-    (
-        std::vector<double>(mine.data(), mine.data() + mine.size())
-    );
+    const std::vector<double> x = communicator.gather(
+        std::vector<double>(mine.data(), mine.data() + mine.size()));
     Columns others(all, 3);
     for (std::size_t r = 0; r < sizes.size(); ++r)
     {
         const Index n = Index(sizes[r]);
         others.middleRows(firstOfRank_[r], n) =
-            Eigen::Map<const Columns>(&x[3*firstOfRank_[r]], n, 3);
+            Eigen::Map<const Columns>(&x[3 * firstOfRank_[r]], n, 3);
     }
     phi_ = kernelMatrix(kernel, mine, others);
 }
 
 
-std::vector<bool> SchurSystem::append
-(
-    const std::vector<Candidate>& list,
-    const std::vector<Index>& chosen
-)
+std::vector<bool> SchurSystem::append(
+    const std::vector<Candidate>& list, const std::vector<Index>& chosen)
 {
     std::vector<bool> in;
     for (const Index i : chosen)
@@ -76,7 +64,7 @@ std::vector<bool> SchurSystem::append
             continue;
         }
         column_.push_back(firstOfRank_[entry.rank] + entry.index);
-        if (double(added_.size()) >= restartFraction_*double(kept_.size()))
+        if (double(added_.size()) >= restartFraction_ * double(kept_.size()))
         {
             restart();
         }
@@ -93,10 +81,8 @@ bool SchurSystem::restart()
     {
         return true;
     }
-    const Eigen::PartialPivLU<Matrix> lu
-    (
-        referenceSystem(kernel_, all, all, true)
-    );
+    const Eigen::PartialPivLU<Matrix> lu(
+        referenceSystem(kernel_, all, all, true));
     if (singular(lu))
     {
         // Nearly so: the blocks, which could be solved, stay
@@ -134,14 +120,13 @@ bool SchurSystem::solveBlocks()
     const Matrix down = referenceSystem(kernel_, added_, kept_, false);
     const Matrix across = referenceSystem(kernel_, kept_, added_, false);
     const Matrix M = lu_.solve(across);
-    const Eigen::PartialPivLU<Matrix> schur(own - down*M);
+    const Eigen::PartialPivLU<Matrix> schur(own - down * M);
     if (singular(schur))
     {
         return false;
     }
-    const Matrix gammaA =
-        schur.solve(paperValues(added_) - down*keptAlone_);
-    const Matrix gammaG = lu_.solve(paperValues(kept_) - across*gammaA);
+    const Matrix gammaA = schur.solve(paperValues(added_) - down * keptAlone_);
+    const Matrix gammaG = lu_.solve(paperValues(kept_) - across * gammaA);
 
     gamma_.resize(gammaG.rows() + gammaA.rows(), 1);
     gamma_ << gammaG, gammaA;
@@ -172,17 +157,14 @@ void SchurSystem::solve(RbfInterpolant& interpolant)
 }
 
 
-Vectors SchurSystem::evaluate
-(
-    const RbfInterpolant& interpolant,
-    const PointCloud&
-) const
+Vectors SchurSystem::evaluate(
+    const RbfInterpolant& interpolant, const PointCloud&) const
 {
     // The columns of Phi^c that belong to what is selected, times the weights
     Columns s = Columns::Zero(phi_.rows(), 3);
     for (std::size_t j = 0; j < column_.size(); ++j)
     {
-        s.noalias() += phi_.col(column_[j])*interpolant.weights().row(j);
+        s.noalias() += phi_.col(column_[j]) * interpolant.weights().row(j);
     }
     return s;
 }

@@ -20,40 +20,28 @@ namespace morph
 // and N_a points are added through the Schur complement (27)-(29) until N_a
 // reaches a fraction of N_g, which is the next restart. A reference: Phi^c
 // takes 8 N_c^2 bytes, over all ranks.
-class SchurSystem
-:
-    public ControlSystem
+class SchurSystem : public ControlSystem
 {
 public:
-
     // restartFraction: N_res/N_g. candidates: those of this rank. Collective.
     // Throws std::runtime_error if Phi^c does not fit into memory.
-    SchurSystem
-    (
-        const Kernel& kernel,
-        double restartFraction,
-        const ControlPoints& candidates,
-        Communicator& communicator
-    );
+    SchurSystem(
+        const Kernel& kernel, double restartFraction,
+        const ControlPoints& candidates, Communicator& communicator);
 
-    std::vector<bool> append
-    (
+    std::vector<bool> append(
         const std::vector<Candidate>& list,
-        const std::vector<Index>& chosen
-    ) override;
+        const std::vector<Index>& chosen) override;
 
     void setValues(const std::vector<Vector3>& values) override;
 
     void solve(RbfInterpolant& interpolant) override;
 
-    Vectors evaluate
-    (
+    Vectors evaluate(
         const RbfInterpolant& interpolant,
-        const PointCloud& candidates
-    ) const override;
+        const PointCloud& candidates) const override;
 
 private:
-
     bool restart();
     bool solveBlocks();
 

@@ -11,16 +11,13 @@ namespace morph
 {
 
 StandardSystem::StandardSystem(const Kernel& kernel)
-:
-    kernel_(kernel)
-{}
+: kernel_(kernel)
+{
+}
 
 
-std::vector<bool> StandardSystem::append
-(
-    const std::vector<Candidate>& list,
-    const std::vector<Index>& chosen
-)
+std::vector<bool> StandardSystem::append(
+    const std::vector<Candidate>& list, const std::vector<Index>& chosen)
 {
     ControlPoints extended(points_);
     for (const Index i : chosen)
@@ -28,10 +25,8 @@ std::vector<bool> StandardSystem::append
         extended.push_back(list[i].point);
     }
 
-    const Eigen::PartialPivLU<Matrix> lu
-    (
-        referenceSystem(kernel_, extended, extended, true)
-    );
+    const Eigen::PartialPivLU<Matrix> lu(
+        referenceSystem(kernel_, extended, extended, true));
     if (singular(lu))
     {
         return std::vector<bool>(chosen.size(), false);
@@ -51,7 +46,8 @@ void StandardSystem::setValues(const std::vector<Vector3>& values)
     if (!points_.empty())
     {
         gamma_ = referenceSystem(kernel_, points_, points_, true)
-           .partialPivLu().solve(paperValues(points_));
+                     .partialPivLu()
+                     .solve(paperValues(points_));
     }
 }
 

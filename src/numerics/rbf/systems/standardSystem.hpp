@@ -15,26 +15,20 @@ namespace morph
 // Assembles the paper's system (6) anew and factorises it by LU whenever a
 // point was added (Aubert et al. 2017, doi:10.1016/j.proeng.2017.09.819,
 // algorithm 2). A reference: the cost of n points grows as n^4.
-class StandardSystem
-:
-    public ControlSystem
+class StandardSystem : public ControlSystem
 {
 public:
-
     explicit StandardSystem(const Kernel& kernel);
 
-    std::vector<bool> append
-    (
+    std::vector<bool> append(
         const std::vector<Candidate>& list,
-        const std::vector<Index>& chosen
-    ) override;
+        const std::vector<Index>& chosen) override;
 
     void setValues(const std::vector<Vector3>& values) override;
 
     void solve(RbfInterpolant& interpolant) override;
 
 private:
-
     Kernel kernel_;
     ControlPoints points_;
     Matrix gamma_;
