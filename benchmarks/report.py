@@ -433,53 +433,58 @@ def propagation_table(data):
     )
 
 
+def runs_named(prefix, runs):
+    """What a program measured under names with this prefix: (rest, run)."""
+    return [
+        (name[len(prefix) :], run)
+        for name, run in runs.items()
+        if name.startswith(prefix)
+    ]
+
+
 def kernel_table(data):
     """All kernels, with the best instruction set."""
     best = data["kernels"]["best"]
     root = best["limit/squareRoot"]["pair"]
-    rows = [
-        [
-            name[4:],
-            f"{1e9*run['pair']:.3f}",
-            f"{1e9*best['interpolant/' + name[4:]]['pair']:.3f}",
-            f"{100*root/run['pair']:.0f} %",
-        ]
-        for name, run in best.items()
-        if name.startswith("sum/")
+    columns = [
+        "kernel",
+        "addKernelSum [ns]",
+        "RbfInterpolant [ns]",
+        "square-root limit / addKernelSum",
     ]
-    return table(
-        [
-            "kernel",
-            "addKernelSum [ns]",
-            "RbfInterpolant [ns]",
-            "square-root limit / addKernelSum",
-        ],
-        rows,
-    )
+    rows = []
+    for name, run in runs_named("sum/", best):
+        whole = best["interpolant/" + name]["pair"]
+        rows.append(
+            [
+                name,
+                f"{1e9*run['pair']:.3f}",
+                f"{1e9*whole:.3f}",
+                f"{100*root/run['pair']:.0f} %",
+            ]
+        )
+    return table(columns, rows)
 
 
 def culling_table(data):
     best = data["kernels"]["best"]
     whole = best["interpolant/wendlandC2"]["pair"]
+    columns = [
+        "r0 / span",
+        "pairs in reach of their leaf",
+        "ns per pair, all counted",
+        "times faster",
+    ]
     rows = [
         [
-            name.split("/")[1],
+            name,
             f"{100*run['reached']:.0f} %",
             f"{1e9*run['pair']:.3f}",
             f"{whole/run['pair']:.1f}",
         ]
-        for name, run in best.items()
-        if name.startswith("culled/")
+        for name, run in runs_named("culled/", best)
     ]
-    return table(
-        [
-            "r0 / span",
-            "pairs in reach of their leaf",
-            "ns per pair, all counted",
-            "times faster",
-        ],
-        rows,
-    )
+    return table(columns, rows)
 
 
 def restart_table(data):

@@ -47,12 +47,7 @@ Foam::ffdMotionSolver::ffdMotionSolver
     (
         mesh,
         dict,
-        pointVectorField
-        (
-            pointDisplacementField::io(mesh),
-            foamCompat::pointMeshOf(mesh),
-            dimensionedVector(dimLength, Zero)
-        ),
+        pointDisplacementField::atRest(mesh),
         referencePoints::read(mesh, &points0IO)(),
         typeName
     ),

@@ -11,9 +11,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "throwing.H"
 #include "untrapped.H"
 
-// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-Foam::IOobject Foam::pointDisplacementField::io(const polyMesh& mesh)
+namespace Foam
+{
+
+// Of the current time, neither registered nor read
+static IOobject fieldIO(const polyMesh& mesh)
 {
     return IOobject
     (
@@ -26,6 +30,24 @@ Foam::IOobject Foam::pointDisplacementField::io(const polyMesh& mesh)
     );
 }
 
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::pointVectorField Foam::pointDisplacementField::atRest
+(
+    const polyMesh& mesh
+)
+{
+    return pointVectorField
+    (
+        fieldIO(mesh),
+        foamCompat::pointMeshOf(mesh),
+        dimensionedVector(dimLength, Zero)
+    );
+}
+
 
 void Foam::pointDisplacementField::registerAndRead
 (
@@ -34,7 +56,7 @@ void Foam::pointDisplacementField::registerAndRead
 {
     foamCompat::registerObject(pointDisplacement);
 
-    IOobject file(io(pointDisplacement.mesh()()));
+    IOobject file(fieldIO(pointDisplacement.mesh()()));
     file.readOpt() = IOobject::MUST_READ;
     string fault;
     try

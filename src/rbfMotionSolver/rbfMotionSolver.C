@@ -58,12 +58,7 @@ Foam::rbfMotionSolver::rbfMotionSolver
     (
         mesh,
         dict,
-        pointVectorField
-        (
-            pointDisplacementField::io(mesh),
-            foamCompat::pointMeshOf(mesh),
-            dimensionedVector(dimLength, Zero)
-        ),
+        pointDisplacementField::atRest(mesh),
         referencePoints::read(mesh, &points0IO)(),
         typeName
     ),

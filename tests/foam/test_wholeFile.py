@@ -9,13 +9,10 @@ size of files (setrlimit, EFBIG) stands for a disk without room.
 
 import gzip
 import resource
-import subprocess
 
 import pytest
-
 from boxCase import fixed, write_control
 from ffdCase import ffd_box, ffd_case, parameter
-from foamCase import environment
 from fuzzCases import surface
 from rbfCase import CUBE, rbf_case
 
@@ -23,32 +20,16 @@ BOX = ffd_box("b", parameter("mu", [((1, 1, 1), (0, 0, 1))]))
 
 
 def run_with_limit(case, size, *command, status=1, ranks=1):
-    """Run with files of at most so many bytes."""
-    command = [str(word) for word in command]
-    if ranks > 1:
-        command = [
-            "mpirun",
-            "--oversubscribe",
-            "-np",
-            str(ranks),
-            *command,
-            "-parallel",
-        ]
-    # As root, mpirun keeps the limit for its ranks; its own files are small
-    result = subprocess.run(
-        command,
-        cwd=case.path,
-        timeout=300,
-        env={**environment(), "PWD": str(case.path)},
-        preexec_fn=lambda: resource.setrlimit(
-            resource.RLIMIT_FSIZE, (size, size)
-        ),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
+    """Run with files of at most so many bytes.
+
+    As root, mpirun keeps the limit for its ranks; its own files are small.
+    """
+    return case.run(
+        *command,
+        ranks=ranks,
+        status=status,
+        before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
     )
-    output = result.stdout.decode(errors="replace")
-    assert result.returncode == status, output[-3000:]
-    return output
 
 
 @pytest.mark.parametrize(

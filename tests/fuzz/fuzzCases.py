@@ -12,6 +12,7 @@ import struct
 
 import mutations
 from boxCase import box, fixed, point_field, write_control
+from closedFormStudy import STUDY
 from foamCase import ROOT, FoamCase
 
 SIDES = ("xMin", "xMax", "yMin", "yMax", "zMin", "zMax")
@@ -287,29 +288,6 @@ def surface(folder):
     return case
 
 
-STUDY = """
-template: case
-parametersFile: parameters
-parameters:
-  x: {bounds: [0, 1], baseline: 0.5}
-  y: {bounds: [0, 1], baseline: 0.5}
-sampling: {method: latinHypercube, designs: 4}
-baseline:
-  steps: {solve: bash solver.sh}
-strategies:
-  morph:
-    steps: {solve: bash solver.sh}
-responses:
-  f: {file: log.solve, regex: 'f = (\\S+)'}
-  g: {file: log.solve, regex: 'g = (\\S+)'}
-constraints: [x + y <= 1.5]
-optimise:
-  objectives: {f: minimise, g: minimise}
-  population: 40
-  generations: 20
-"""
-
-
 def study(folder):
     (folder / "case").mkdir(parents=True)
     (folder / "case/parameters").write_text("x 0.5;\ny 0.5;\n")
@@ -318,7 +296,7 @@ def study(folder):
     (folder / "case/solver.sh").write_text(
         "cat parameters; echo 'f = 1'; echo 'g = 2'\n"
     )
-    (folder / "study.yaml").write_text(STUDY)
+    (folder / "study.yaml").write_text(STUDY + "constraints: [x + y <= 1.5]\n")
     return FoamCase(folder)
 
 

@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 
 import pytest
+from closedFormStudy import STUDY
 
 for module in ("yaml", "scipy", "sklearn", "deap", "snakemake", "matplotlib"):
     pytest.importorskip(module)
@@ -26,33 +27,6 @@ awk "BEGIN { exit !($y > 0.9) }" && sleep 30
 mkdir -p $((time + 3))
 awk "BEGIN { print $x + ${time:-0} }" > $((time + 3))/U
 awk "BEGIN { printf \\"f = %.17g\\\\n\\", $x*$x + $y; print \\"g = \\" 1 - $x*$y }"
-"""
-
-STUDY = """
-template: case
-parametersFile: parameters
-parameters:
-  x: {bounds: [0, 1], baseline: 0.5}
-  y: {bounds: [0, 1], baseline: 0.5}
-sampling: {method: latinHypercube, designs: 4}
-baseline:
-  steps: {solve: bash solver.sh}
-strategies:
-  morph:
-    steps: {solve: bash solver.sh}
-  near:
-    start: nearest
-    steps: {solve: bash solver.sh}
-  remesh:
-    start: template
-    steps: {solve: bash solver.sh}
-responses:
-  f: {file: log.solve, regex: 'f = (\\S+)'}
-  g: {file: log.solve, regex: 'g = (\\S+)'}
-optimise:
-  objectives: {f: minimise, g: minimise}
-  population: 40
-  generations: 20
 """
 
 

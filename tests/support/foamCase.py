@@ -79,10 +79,11 @@ class FoamCase:
             f"    class {class_name};\n    object {path.name};\n}}\n\n{body}\n"
         )
 
-    def run(self, *command, ranks=1, status=0):
+    def run(self, *command, ranks=1, status=0, before=None):
         """Run a command here, on so many ranks; return what it printed.
 
         Fails with the output unless the command exits with the given status.
+        before: called in the new process before the command starts.
         """
         command = [str(word) for word in command]
         if ranks > 1:
@@ -99,6 +100,7 @@ class FoamCase:
             cwd=self.path,
             timeout=300,
             env={**environment(), "PWD": str(self.path)},
+            preexec_fn=before,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
         )

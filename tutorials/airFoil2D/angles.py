@@ -21,6 +21,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from morphfoam.output.motion_runs import run_until_invalid
 from morphfoam.output.tables import read_columns, write_table
 
 here = Path(__file__).resolve().parent
@@ -96,27 +97,10 @@ def in_one_step(motion, linear_solver, angles):
 
 def in_many_steps(motion, linear_solver, step):
     case = make_case(motion, linear_solver, step)
-    time, valid = 0.0, 0.0
-    with (case / "log.moveDynamicMesh").open("w") as log:
-        process = subprocess.Popen(
-            ["moveDynamicMesh", "-case", case],
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )
-        for line in process.stdout:
-            log.write(line)
-            if line.startswith("Time = "):
-                valid, time = time, float(line.split()[2])
-            elif invalid.search(line):
-                process.kill()
-                process.wait()
-                return row(
-                    motion, linear_solver, f"of {step:g} deg", valid, time
-                )
-        if process.wait():
-            sys.exit(f"Error: moveDynamicMesh failed, see {log.name}")
-    return row(motion, linear_solver, f"of {step:g} deg", time, "none found")
+    valid, first_invalid = run_until_invalid(case, invalid)
+    if first_invalid is None:
+        first_invalid = "none found"
+    return row(motion, linear_solver, f"of {step:g} deg", valid, first_invalid)
 
 
 def row(motion, linear_solver, steps, valid, first_invalid, quality=None):

@@ -25,6 +25,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from morphfoam.output.motion_runs import run_until_invalid
 from morphfoam.output.tables import read_columns, write_table
 
 here = Path(__file__).resolve().parent
@@ -37,7 +38,7 @@ motions = [
     "SBRStress",
 ]
 resolution, largest = 0.02, 5.4
-invalid = re.compile(r"incorrectly oriented|negative cell volume")
+stopped = re.compile(r"incorrectly oriented|negative cell volume|FOAM FATAL")
 
 
 def make_case(motion, walls):
@@ -118,24 +119,8 @@ def in_small_steps(motion, walls, step=0.1):
         .replace("deltaT              1;", f"deltaT              {step};")
         .replace("writeInterval       1;", "writeInterval       1000;")
     )
-    time, valid = 0.0, 0.0
-    with (case / "log.moveDynamicMesh").open("w") as log:
-        process = subprocess.Popen(
-            ["moveDynamicMesh", "-case", case],
-            text=True,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-        )
-        for line in process.stdout:
-            log.write(line)
-            if line.startswith("Time = "):
-                valid, time = time, float(line.split()[2])
-            elif invalid.search(line) or "FOAM FATAL" in line:
-                process.kill()
-                process.wait()
-                return valid
-        process.wait()
-    return time
+    valid, _ = run_until_invalid(case, stopped)
+    return valid
 
 
 def points(path):

@@ -75,18 +75,16 @@ pointsOfCentres(const RbfInterpolant& interpolant, const ControlPoints& points)
     return indices;
 }
 
-} // namespace
-
-
-TEST(WholeSolve, agreesWithTheDenseGramSystem)
+// Every case against an independent solution of the same problem
+template <class Solve>
+void agreesWith(const std::string& name, const Solve& solve)
 {
     forAllCases(
-        [](const Case& c)
+        [&](const Case& c)
         {
-            const reference::Field expected =
-                reference::gram(c.type, c.radius, c.points);
+            const reference::Field expected = solve(c.type, c.radius, c.points);
             EXPECT_TRUE(within(
-                "whole solve against dense Gram system",
+                "whole solve against " + name,
                 largestDifference(c.found(c.probes), expected(c.probes))
                     / largestDisplacement(c.points),
                 1e-10))
@@ -94,21 +92,18 @@ TEST(WholeSolve, agreesWithTheDenseGramSystem)
         });
 }
 
+} // namespace
+
+
+TEST(WholeSolve, agreesWithTheDenseGramSystem)
+{
+    agreesWith("dense Gram system", reference::gram);
+}
+
 
 TEST(WholeSolve, agreesWithTheSystemOfThePaper)
 {
-    forAllCases(
-        [](const Case& c)
-        {
-            const reference::Field expected =
-                reference::paper(c.type, c.radius, c.points);
-            EXPECT_TRUE(within(
-                "whole solve against system (6) of the paper",
-                largestDifference(c.found(c.probes), expected(c.probes))
-                    / largestDisplacement(c.points),
-                1e-10))
-                << c.name;
-        });
+    agreesWith("system (6) of the paper", reference::paper);
 }
 
 
