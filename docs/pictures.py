@@ -64,6 +64,12 @@ PICTURES = [
         900,
     ),
     ("pitchingAerofoil.film", "pitchingAerofoil", ["pitching"], 900),
+    (
+        "pitchingAerofoilInSitu.sheet",
+        "pitchingAerofoilInSitu",
+        ["contactSheet"],
+        1000,
+    ),
     ("rudder.lattice", "rudder", ["rudder.before", "rudder.after"], 900),
     (
         "slidingCylinder.mesh",

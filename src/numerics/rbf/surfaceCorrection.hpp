@@ -16,17 +16,18 @@
 namespace morph
 {
 
-// A hierarchy of radii h_l = h_0/2^l. Each level has the points that are at
-// least h_l away from all others of this and of earlier levels, so that with a
-// kernel of support h_l they do not feel each other: the system is diagonal,
-// the coefficients are what the earlier levels leave of the residuals, and what
-// was met stays met. The last level has the points that are left, and all
-// residuals are met to round-off. It changes the field within h_0 of the points
-// alone: what a greedy selection leaves at a wall, the cells at the wall follow.
+// A hierarchy of radii h_l = h_0/2^l. The points of level l are at least h_l
+// away from each other and from all points of earlier levels, so that no kernel
+// of support h_l reaches another of them: the system is diagonal, its
+// coefficients are the residuals that earlier levels leave, and residuals that
+// earlier levels meet stay met. The last level takes the points that are left;
+// then all residuals are met to round-off. The field changes only within h_0 of
+// the points, so that cells at a wall follow the error that the greedy
+// selection left there.
 //
-// Points that are images of each other go to one level together, where they are
-// apart from each other as well: a correction of residuals that have a symmetry
-// or a period has it, too.
+// Points that are images of each other join a level together, if they are far
+// enough from each other: the correction of residuals that are symmetric or
+// periodic is so, too.
 class SurfaceCorrection
 {
 public:
