@@ -315,7 +315,7 @@ void run(const Options& options)
         std::printf
         (
             "{\"set\": \"%s\", \"candidates\": %ld, \"selected\": %ld, "
-            "\"rejected\": %ld, \"error\": %.6e, \"sweeps\": %ld, "
+            "\"rejected\": %ld, \"error\": %.6e, \"sweeps\": %ld, \"whole\": %ld, "
             "\"sweep\": %.6f, \"list\": %.6f, \"solve\": %.6f, "
             "\"total\": %.6f, \"cpu\": %.6f, \"peakMB\": %.2f, "
             "\"keptMB\": %.2f, \"roundOff\": %.3e, "
@@ -323,7 +323,7 @@ void run(const Options& options)
             set.name.c_str(), long(result.candidates), long(result.selected),
             long(result.rejected),
             result.largestError/result.largestDisplacement,
-            long(result.sweeps), result.sweepTime, result.listTime,
+            long(result.sweeps), long(result.wholeSweeps), result.sweepTime, result.listTime,
             result.solveTime, total, cpu, peak*1e-6, kept*1e-6,
             result.roundOff/result.largestDisplacement,
             evaluationError

@@ -295,14 +295,23 @@ SelectionResult GreedySelection::run(
     const bool renewed = bool(renew);
     std::vector<double> history;
 
+    set_.reset();
+    if (samples(renewed) && before == 0)
+    {
+        std::fill(errors_.norms.begin(), errors_.norms.end(), 0.0);
+        nextSet(candidates, communicator, true, result.tolerance);
+    }
+
     // What was selected before meets the new values first
     bool settles = renewed && before > 0;
+    bool more = true;
     do
     {
         {
             Stopwatch time(result.sweepTime);
             sweep(candidates, renew);
             ++result.sweeps;
+            result.wholeSweeps += set_.whole();
         }
         if (observer)
         {
@@ -310,11 +319,18 @@ SelectionResult GreedySelection::run(
             summarise(candidates, communicator, result);
             observer(result);
         }
-    } while (
-        (settles =
-             settles && approach(candidates, communicator, history, result))
-        || addPoints(candidates, communicator, renewed, result)
-        || (renewed && approach(candidates, communicator, history, result)));
+        settles =
+            settles && approach(candidates, communicator, history, result);
+        more = settles || addPoints(candidates, communicator, renewed, result);
+        if (samples(renewed))
+        {
+            more = nextSet(candidates, communicator, more, result.tolerance);
+        }
+        else if (!more && renewed)
+        {
+            more = approach(candidates, communicator, history, result);
+        }
+    } while (more);
 
     result.added = Index(origins_.size()) - before;
     summarise(candidates, communicator, result);
@@ -326,7 +342,8 @@ bool GreedySelection::addPoints(
     const ControlPoints& candidates, Communicator& communicator, bool renewed,
     SelectionResult& result)
 {
-    const double least = settings_.all ? -1 : result.tolerance;
+    const double least =
+        settings_.all ? -1 : set_.coarseness() * result.tolerance;
     std::vector<Candidate> list;
     ControlSystem::Choice choice;
     {
@@ -410,14 +427,9 @@ void GreedySelection::start(
     values_.clear();
     rejected_ = 0;
     const Index n = candidates.size();
-    Vectors x(n, 3);
-    for (Index i = 0; i < n; ++i)
-    {
-        x.row(i) = candidates[i].position.transpose();
-    }
-    cloud_.reset(new PointCloud(x));
+    set_ = WorkingSet(candidates, communicator);
     errors_.residuals.resize(n, 3);
-    errors_.norms.resize(n);
+    errors_.norms.assign(n, 0);
     errors_.available.assign(n, 1);
     mine_.assign(n, 0);
 
@@ -502,17 +514,52 @@ void GreedySelection::refreshValues(
 
 void GreedySelection::sweep(const ControlPoints& candidates, const Sweep& renew)
 {
-    const Vectors s = system_->evaluate(interpolant_, *cloud_);
+    const Vectors s = system_->evaluate(interpolant_, set_.cloud());
     if (renew)
     {
         renew(s);
     }
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    const std::vector<Index>& indices = set_.indices();
+    for (Index j = 0; j < s.rows(); ++j)
     {
-        const Vector3 r = candidates[i].residual(s.row(i).transpose());
+        const Index i = indices.empty() ? j : indices[j];
+        const Vector3 r = candidates[i].residual(s.row(j).transpose());
         errors_.residuals.row(i) = r.transpose();
         errors_.norms[i] = r.norm();
     }
+}
+
+
+bool GreedySelection::samples(bool renewed) const
+{
+    // Renewed values follow from the displacement of every candidate; and what
+    // is there for comparison is to do what its paper says
+    return !renewed && !settings_.all
+        && settings_.algorithm == Algorithm::incremental;
+}
+
+
+bool GreedySelection::nextSet(
+    const ControlPoints& candidates, Communicator& communicator, bool added,
+    double tolerance)
+{
+    if (!added)
+    {
+        // The sample is met: are all?
+        const bool more = !set_.whole();
+        set_.takeAll();
+        return more;
+    }
+    if (set_.whole())
+    {
+        set_.sample(
+            candidates, origins_.size(), tolerance, errors_, communicator);
+    }
+    else
+    {
+        set_.grow(candidates, origins_.size());
+    }
+    return true;
 }
 
 

@@ -10,6 +10,7 @@
 #include "imageGroup.hpp"
 #include "kernel.hpp"
 #include "rbfInterpolant.hpp"
+#include "workingSet.hpp"
 
 #include <functional>
 #include <limits>
@@ -77,11 +78,13 @@ struct SelectionResult
     // machine epsilon x sum |gamma| [m]
     double roundOff = 0;
 
-    // Points that were added by this call, sweeps over the candidates, and how
-    // often the system was solved again for renewed values alone
+    // Points that were added by this call, sweeps, those of them that were over
+    // all candidates and not a sample (workingSet.hpp), and how often the system
+    // was solved again for renewed values alone
     Index added = 0;
     Index renewals = 0;
     Index sweeps = 0;
+    Index wholeSweeps = 0;
 
     // Wall time of this rank [s]: evaluation of the candidates, choice of
     // points, and linear algebra
@@ -105,7 +108,8 @@ struct SelectionResult
 class GreedySelection
 {
 public:
-    // Called after every sweep with the result so far
+    // Called after every sweep with the result so far; its largest error is
+    // that of the candidates in the sweep
     using Observer = std::function<void(const SelectionResult&)>;
 
     // Given the displacements (n x 3) at this rank's candidates after a sweep,
@@ -198,6 +202,10 @@ private:
     void makeSystem(const ControlPoints& candidates, Communicator& c);
     void refreshValues(const ControlPoints& candidates, Communicator& c);
     void sweep(const ControlPoints& candidates, const Sweep& renew);
+    bool samples(bool renewed) const;
+    bool nextSet(
+        const ControlPoints& candidates, Communicator& communicator, bool added,
+        double tolerance);
     void appendBlocks(const std::vector<Candidate>& points, int rank);
     bool addPoints(
         const ControlPoints& candidates, Communicator& communicator,
@@ -219,7 +227,7 @@ private:
     ImageGroup images_;
 
     bool started_ = false;
-    std::unique_ptr<PointCloud> cloud_;
+    WorkingSet set_;
     std::unique_ptr<ControlSystem> system_;
     RbfInterpolant interpolant_;
 

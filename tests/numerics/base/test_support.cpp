@@ -176,6 +176,26 @@ ControlPoints randomControlPoints(Random& random, const Mixture& mixture)
 }
 
 
+ControlPoints manyControlPoints()
+{
+    // Not on a lattice: the places are those of an additive recurrence
+    ControlPoints points;
+    for (Index i = 0; i < 45000; ++i)
+    {
+        const double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0);
+        const double v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
+        const Vector3 x(u, v, 0.5 + 0.1 * std::sin(6 * u) * std::cos(5 * v));
+        const Vector3 normal(
+            -0.6 * std::cos(6 * u) * std::cos(5 * v),
+            0.5 * std::sin(6 * u) * std::sin(5 * v), 1);
+        points.push_back(
+            i % 7 == 0 ? ControlPoint::sliding(x, {normal})
+                       : ControlPoint::prescribed(x, Vector3::Zero()));
+    }
+    return points;
+}
+
+
 Vectors rows(const std::vector<Vector3>& x)
 {
     Vectors v(x.size(), 3);

@@ -68,6 +68,10 @@ struct Mixture
 // the second normal of an edge is that of the plane)
 ControlPoints randomControlPoints(Random& random, const Mixture& mixture);
 
+// So many on a wavy sheet in the unit cube that a selection sweeps a sample of
+// them: displaced by zero, every seventh slides on the sheet
+ControlPoints manyControlPoints();
+
 Vectors rows(const std::vector<Vector3>& x);
 Vectors positionRows(const ControlPoints& points);
 double largestDisplacement(const ControlPoints& points);

@@ -264,6 +264,15 @@ TEST(Distribution, doesNotMatterWhenOtherDisplacementsFollow)
 }
 
 
+TEST(Distribution, ofManyPointsOfWhichASampleIsSweptDoesNotMatter)
+{
+    const ControlPoints points = manyControlPoints();
+    expectTheSameOnAnyRanks(
+        Kernel(KernelType::wendlandC2, 0.8), Polynomial::none, settingsOf(2e-2),
+        {displaced(points, 2), displaced(points, 5)});
+}
+
+
 TEST(Distribution, doesNotMatterWhereErrorsTieExactly)
 {
     ControlPoints candidates;
