@@ -102,18 +102,27 @@ def machine():
 
 def point_sets():
     """The files of the three sets, unpacked and generated."""
+    return {
+        "rib": point_set("rib"),
+        "fan": point_set("fan13k"),
+        "box": point_set("box100k", 100_000),
+    }
+
+
+def point_set(name, count=None):
+    """The file of a set, unpacked; with a count generated."""
     folder = BUILD / "points"
     folder.mkdir(parents=True, exist_ok=True)
-    files = {"box": folder / "box100k.txt"}
-    for name, packed in (("rib", "rib"), ("fan", "fan13k")):
-        files[name] = folder / (packed + ".txt")
-        with lzma.open(HERE / "points" / (packed + ".txt.xz")) as source:
-            files[name].write_bytes(source.read())
-    subprocess.run(
-        [sys.executable, HERE / "points" / "generate.py", files["box"]],
-        check=True,
-    )
-    return files
+    path = folder / f"{name}.txt"
+    if count is None:
+        with lzma.open(HERE / "points" / f"{name}.txt.xz") as source:
+            path.write_bytes(source.read())
+    elif not path.exists():
+        generate = HERE / "points/generate.py"
+        subprocess.run(
+            [sys.executable, generate, path, str(count)], check=True
+        )
+    return path
 
 
 def median(values):

@@ -38,10 +38,10 @@ public:
     void takeAll() { whole_ = true; }
     void reset();
 
-    // Take the sample for so many selected points, and the candidates of which
-    // errors come, or came, near to `least` or exceed it. Errors of the others are set to
-    // zero, so that none of them is selected. Where that would be too many to
-    // save time all stay in. Collective
+    // Take the sample for so many selected points, and the candidates whose
+    // error is, or ever was, near to `least` or above. Errors of the others are
+    // set to zero, so that none of them is selected. All stay in where that would
+    // be too many to save time. Collective
     void sample(
         const ControlPoints& candidates, Index selected, double least,
         Errors& errors, Communicator& communicator);
@@ -69,7 +69,7 @@ private:
 
     bool whole_ = true;
     bool alone_ = false; // a sample without any that an error took in
-    double total_ = 0; // candidates of all ranks
+    double total_ = 0;   // candidates of all ranks
     double share_ = 0;
     std::shared_ptr<const PointCloud> all_;
     std::shared_ptr<const PointCloud> part_;
