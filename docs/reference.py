@@ -56,7 +56,12 @@ DICTIONARIES = [
     (
         "displacement: sixDoFRigidBody",
         "sixDoFRigidBodyDisplacement",
-        ["sixDoFRigidBodyDisplacement", "sixDoFRigidBody"],
+        ["sixDoFRigidBodyDisplacement", "bodyInFlow", "sixDoFRigidBody"],
+    ),
+    (
+        "displacement: rigidBody",
+        "rigidBodyDisplacement",
+        ["rigidBodyDisplacement", "bodyInFlow", "jointedBodies", "bodyTree"],
     ),
     (
         "ffdMotionSolverCoeffs",

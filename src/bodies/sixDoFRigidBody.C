@@ -4,12 +4,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "sixDoFRigidBody.H"
-#include "dimensionedVector.H"
-#include "foamCompat.H"
-#include "forces.H"
-#include "plainText.H"
+#include "StringStream.H"
 #include "Time.H"
-#include "uniformDimensionedFields.H"
 
 #include <limits>
 
@@ -45,51 +41,12 @@ Foam::sixDoFRigidBody::sixDoFRigidBody
     const wordList& patches
 )
 :
-    IOdictionary
-    (
-        IOobject
-        (
-            name,
-            mesh.time().timeName(),
-            "uniform",
-            mesh,
-            IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE
-        )
-    ),
-    mesh_(mesh),
-    coeffs_(coeffs),
-    patches_(patches),
-    test_(coeffs.getOrDefault("test", false)),
-    rho_(coeffs.getOrDefault<word>("rho", "rho")),
-    rhoInf_(1),
+    bodyInFlow(name, mesh, coeffs, patches, "sixDoFRigidBodyMotionState"),
     deltaT_(0),
-    deltaT0_(0),
-    timeIndex_(-1)
+    deltaT0_(0)
 {
-    if (rho_ == "rhoInf")
-    {
-        rhoInf_ = coeffs_.get<scalar>("rhoInf");
-    }
-    checkOtherBodies();
     start();
     dictionary::clear();
-}
-
-
-Foam::sixDoFRigidBody& Foam::sixDoFRigidBody::New
-(
-    const word& name,
-    const polyMesh& mesh,
-    const dictionary& coeffs,
-    const wordList& patches
-)
-{
-    if (!mesh.foundObject<sixDoFRigidBody>(name))
-    {
-        regIOobject::store(new sixDoFRigidBody(name, mesh, coeffs, patches));
-    }
-    return mesh.lookupObjectRef<sixDoFRigidBody>(name);
 }
 
 
@@ -101,80 +58,19 @@ void Foam::sixDoFRigidBody::start()
     const bool continues = !state.empty();
     if (continues)
     {
-        spendFirstAcceleration(mesh_.time());
+        spendFirstAcceleration(time());
         deltaT_ = state.getOrDefault<scalar>("deltaT", 0);
-    }
-    else if (mesh_.pointsInstance() != mesh_.time().constant())
-    {
-        WarningInFunction
-            << "The mesh has moved, but there is no " << objectPath() << nl
-            << "    The body starts from the state in " << coeffs_.name() << nl
-            << "    To continue a run of OpenFOAM's sixDoFRigidBodyMotion copy"
-            << " its file sixDoFRigidBodyMotionState to that name" << endl;
     }
     motion_.reset
     (
         new sixDoFRigidBodyMotion
         (
-            coeffs_, continues ? state : coeffs_, mesh_.time()
+            coeffs(), continues ? state : coeffs(), time()
         )
     );
-    Info<< name() << ": "
-        << (continues ? "continues" : "starts") << " with centre of mass "
-        << motion_->centreOfMass();
-    if (test_)
-    {
-        Info<< ", without forces of a flow" << endl;
-    }
-    else
-    {
-        Info<< ", forces of "
-            << plainText::listed(patches_).c_str() << endl;
-    }
-}
-
-
-void Foam::sixDoFRigidBody::checkOtherBodies() const
-{
-    for (const word& other : mesh_.sortedNames<sixDoFRigidBody>())
-    {
-        const auto& body = mesh_.lookupObject<sixDoFRigidBody>(other);
-        for (const word& patch : patches_)
-        {
-            if (&body != this && body.patches_.found(patch))
-            {
-                FatalIOErrorInFunction(coeffs_)
-                    << "Patch '" << patch << "' belongs to two bodies: "
-                    << body.coeffs_.name() << " has it as well" << nl
-                    << "    Its forces would act on both. Leave it in the"
-                    << " 'patches' of one of them" << nl
-                    << exit(FatalIOError);
-            }
-        }
-    }
-}
-
-
-Foam::vector Foam::sixDoFRigidBody::gravity() const
-{
-    dimensionedVector given("g", dimAcceleration, Zero);
-    const bool hasOwn = given.readIfPresent(coeffs_);
-    if (!mesh_.time().foundObject<uniformDimensionedVectorField>("g"))
-    {
-        return given.value();
-    }
-
-    const auto& field =
-        mesh_.time().lookupObject<uniformDimensionedVectorField>("g");
-    if (hasOwn && given.value() != field.value())
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'g' is " << given.value() << " but the flow has "
-            << field.value() << " in " << field.objectPath() << nl
-            << "    Body and flow need one gravity. Remove the entry" << nl
-            << exit(FatalIOError);
-    }
-    return field.value();
+    OStringStream where;
+    where<< "centre of mass " << motion_->centreOfMass();
+    announce(continues, where.str());
 }
 
 
@@ -182,32 +78,18 @@ Foam::vector Foam::sixDoFRigidBody::gravity() const
 
 void Foam::sixDoFRigidBody::update()
 {
-    const Time& time = mesh_.time();
-    const bool first = timeIndex_ != time.timeIndex();
+    const bool first = startsTimeStep();
     if (first)
     {
-        timeIndex_ = time.timeIndex();
         motion_->newTime();
-        deltaT0_ = deltaT_ > 0 ? deltaT_ : time.deltaT0Value();
-        deltaT_ = time.deltaTValue();
+        deltaT0_ = deltaT_ > 0 ? deltaT_ : time().deltaT0Value();
+        deltaT_ = time().deltaTValue();
     }
 
     const vector weight(motion_->mass()*gravity());
     vector force(weight);
     vector moment(motion_->momentArm() ^ weight);
-    if (!test_)
-    {
-        dictionary dict;
-        dict.add("type", functionObjects::forces::typeName);
-        dict.add("patches", patches_);
-        dict.add("rhoInf", rhoInf_);
-        dict.add("rho", rho_);
-        dict.add("CofR", motion_->centreOfRotation());
-        functionObjects::forces flow("forces", mesh_, dict);
-        foamCompat::calculateForces(flow);
-        force += flow.forceEff();
-        moment += flow.momentEff();
-    }
+    addFlow(patches(), motion_->centreOfRotation(), force, moment);
     motion_->update(first, force, moment, deltaT_, deltaT0_);
 }
 

@@ -34,7 +34,7 @@ Foam::sixDoFRigidBodyDisplacement::sixDoFRigidBodyDisplacement
     prescribedDisplacement(checked(dict), mesh),
     body_
     (
-        sixDoFRigidBody::New
+        bodyInFlow::New<sixDoFRigidBody>
         (
             typeName + '.' + dict.parent().dictName(),
             mesh,
@@ -85,22 +85,7 @@ const Foam::dictionary& Foam::sixDoFRigidBodyDisplacement::checked
             << " 'constraints'" << nl << exit(FatalIOError);
     }
 
-    wordList unread;
-    for (const word& key : dict.toc())
-    {
-        if (!keys.found(key) && key != "FoamFile")
-        {
-            unread.append(key);
-        }
-    }
-    if (unread.size())
-    {
-        IOWarningInFunction(dict)
-            << "Nothing reads the entries "
-            << plainText::listed(unread).c_str() << nl
-            << "    Variables of the dictionary may stay. How far from the body"
-            << " the mesh moves is the matter of 'supportRadius'" << endl;
-    }
+    bodyInFlow::nameUnread(dict, keys);
     return dict;
 }
 
@@ -112,36 +97,16 @@ Foam::wordList Foam::sixDoFRigidBodyDisplacement::wetPatches
     const labelList& patches
 )
 {
-    const polyBoundaryMesh& boundary = mesh.boundaryMesh();
-    wordList names(boundary.names());
-    names.setSize(boundary.nNonProcessor());
-
-    wordList wet;
-    if (dict.found("patches"))
-    {
-        const label nPatches = names.size();
-        names.append(boundary.groupPatchIDs().sortedToc());
-        labelHashSet selected;
-        for (const label i : dictionaryChecks::select(dict, "patches", names))
-        {
-            if (i < nPatches)
-            {
-                selected.insert(i);
-            }
-            else
-            {
-                selected.insert(boundary.groupPatchIDs()[names[i]]);
-            }
-        }
-        for (const label patchi : selected.sortedToc())
-        {
-            wet.append(names[patchi]);
-        }
-    }
-    else
-    {
-        wet = UIndirectList<word>(names, patches);
-    }
+    const wordList wet
+    (
+        UIndirectList<word>
+        (
+            mesh.boundaryMesh().names(),
+            dict.found("patches")
+          ? bodyInFlow::selectPatches(dict, mesh)
+          : patches
+        )
+    );
 
     if (wet.empty() && !dict.getOrDefault("test", false))
     {

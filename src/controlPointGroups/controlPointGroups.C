@@ -271,7 +271,7 @@ void Foam::controlPointGroups::checkThatSomethingMoves
             << " oscillatingDisplacement, ...;" << nl
             << "    or add a group of type moving to 'controlPoints', with"
             << " displacement { type sixDoFRigidBody; ... }" << nl
-            << "    if it is a body that floats" << nl << exit(FatalIOError);
+            << "    or { type rigidBody; ... } if it is a body that floats" << nl << exit(FatalIOError);
     }
 }
 

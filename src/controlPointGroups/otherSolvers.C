@@ -5,6 +5,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "otherSolvers.H"
 #include "plainText.H"
+#include "primitiveEntry.H"
+#include "wordRes.H"
 #include "HashSet.H"
 #include "StringStream.H"
 
@@ -23,11 +25,18 @@ static string counterpart(const word& name)
         return name.find(part) != string::npos;
     };
 
-    if (has("sixDoF") || has("rigidBody"))
+    for (const char* body : {"sixDoFRigidBody", "rigidBody"})
     {
-        return
-            "a body is a group of 'controlPoints' with displacement"
-            " { type sixDoFRigidBody; ... }";
+        if (has(body))
+        {
+            return
+                "a body is a group of 'controlPoints' with displacement { type "
+              + string(body) + "; ... }";
+        }
+    }
+    if (name == "bodies")
+    {
+        return counterpart("rigidBody");
     }
     if (has("olidBody"))
     {
@@ -104,6 +113,63 @@ static bool bodysOwn(const entry& e)
     return !others.found(e.keyword()) && (e.keyword() != "solver" || e.isDict());
 }
 
+
+// A group that moves these patches, to copy
+static string group(const entry& patches, const dictionary& displacement)
+{
+    dictionary group;
+    group.add("type", "moving");
+    group.add(patches);
+    group.add("displacement", displacement);
+
+    OStringStream text;
+    text<< "    A body that floats is a group of 'controlPoints':" << nl
+        << nl << "body";
+    group.write(text, true);
+    text<< nl << "    The patches that stay are a group of type fixed there";
+    return text.str();
+}
+
+
+// The entries of a solver for bodies, as those of a displacement
+static dictionary displacement(const word& type, const dictionary& coeffs)
+{
+    dictionary result;
+    result.add("type", type);
+    for (const entry& e : coeffs)
+    {
+        if (bodysOwn(e))
+        {
+            result.add(e);
+        }
+    }
+    return result;
+}
+
+
+// The same of bodies with joints, whose patches and distances are in each
+static string joined(const dictionary& coeffs)
+{
+    dictionary displacement(Foam::displacement("rigidBody", coeffs));
+    wordRes patches;
+    for (const word& name : coeffs.subDict("bodies").toc())
+    {
+        dictionary* body =
+            displacement.subDict("bodies").findDict(name, keyType::LITERAL);
+        if (!body)
+        {
+            continue;
+        }
+        body->remove("innerDistance");
+        body->remove("outerDistance");
+        if (body->found("patches"))
+        {
+            patches.append(body->get<wordRes>("patches"));
+        }
+    }
+    return group(primitiveEntry("patches", patches), displacement);
+}
+
 } // End namespace Foam
 
 
@@ -158,55 +224,23 @@ Foam::string Foam::otherSolvers::leftovers
 
 Foam::string Foam::otherSolvers::bodies(const dictionary& dict)
 {
-    OStringStream text;
     const dictionary* six =
         coefficients(dict, "sixDoFRigidBodyMotion", "momentOfInertia");
     if (six)
     {
-        dictionary displacement;
-        displacement.add("type", "sixDoFRigidBody");
-        for (const entry& e : *six)
-        {
-            if (bodysOwn(e))
-            {
-                displacement.add(e);
-            }
-        }
-        dictionary group;
-        group.add("type", "moving");
-        group.add(*six->findEntry("patches"));
-        group.add("displacement", displacement);
-
-        text<< "    A body that floats is a group of 'controlPoints':" << nl
-            << nl << "body";
-        group.write(text, true);
-        text<< nl << "    The patches that stay are a group of type fixed there";
-        return text.str();
+        return group
+        (
+            *six->findEntry("patches"),
+            displacement("sixDoFRigidBody", *six)
+        );
     }
 
-    const dictionary* joined = dict.findDict("rigidBodyMotionCoeffs");
-    if (!joined)
+    const dictionary* coeffs = dict.findDict("rigidBodyMotionCoeffs");
+    if (!coeffs)
     {
-        joined = dict.findDict("bodies") ? &dict : nullptr;
+        coeffs = &dict;
     }
-    if (joined)
-    {
-        const dictionary* list = joined->findDict("bodies");
-        const wordList names(list ? list->toc() : wordList());
-        text<< "    A body that floats is a group of 'controlPoints' with"
-            << " displacement { type sixDoFRigidBody; ... }" << nl
-            << "    (mass, centreOfMass, momentOfInertia; what a joint allows"
-            << " is said by 'constraints': line, plane, point, axis,"
-            << " orientation)." << nl
-            << "    Bodies: " << plainText::listed(names).c_str() << '.';
-        if (names.size() > 1)
-        {
-            text<< " Bodies joined to each other have no such type: keep"
-                << " the solver rigidBodyMotion for them";
-        }
-        return text.str();
-    }
-    return string::null;
+    return coeffs->findDict("bodies") ? joined(*coeffs) : string::null;
 }
 
 

@@ -152,7 +152,8 @@ outerDistance 1; mass 15; centreOfMass (0.5 0.5 1);
 momentOfInertia (1 1 1); solver { type Newmark; } report on; }"""
 
 JOINTED = """rigidBodyMotionCoeffs { solver { type Newmark; } bodies
-{ hull { type cuboid; patches (zMax); } propeller { type masslessBody; } } }"""
+{ hull { type cuboid; patches (zMax); innerDistance 0.1; outerDistance 1; }
+propeller { type masslessBody; } } }"""
 
 
 @pytest.mark.parametrize(
@@ -170,9 +171,10 @@ JOINTED = """rigidBodyMotionCoeffs { solver { type Newmark; } bodies
         (
             JOINTED,
             [
-                "type sixDoFRigidBody",
-                "(hull propeller)",
-                "keep the solver rigidBodyMotion",
+                "type            rigidBody;",
+                "body\n{",
+                "patches         ( zMax );",
+                "propeller",
             ],
         ),
     ],
