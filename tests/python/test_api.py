@@ -72,6 +72,7 @@ def folder(tmp_path_factory):
         folder,
         ("bounds: [0, 1]", "bounds: [0.2, 0.8]"),
         ("latinHypercube, designs: 4", "factorial, levels: 3"),
+        ("optimise:", "descend: {objective: {f: minimise}}\noptimise:"),
     )
     forces = folder / "postProcessing/forces/0"
     forces.mkdir(parents=True)

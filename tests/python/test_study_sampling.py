@@ -204,3 +204,44 @@ def test_designs_of_other_parameters_are_not_taken(tmp_path):
     sample.sample(study(tmp_path, ("designs: 30", "designs: 4")))
     with pytest.raises(StudyError, match="Use another folder"):
         designs.read(study(tmp_path, ("  h: {", "  k: {")))
+
+
+def test_designs_of_ones_own_come_from_a_table(tmp_path):
+    (tmp_path / "own.csv").write_text("y,note,x\n0.25,first,0.5\n1,,0\n")
+    study = read(
+        make_study(
+            tmp_path,
+            (
+                "{method: latinHypercube, designs: 4}",
+                "{method: table, file: own.csv}",
+            ),
+        )
+    )
+    points = sampling.sample(study, [])
+    assert points.tolist() == [[0.5, 0.25], [0, 1]]
+    assert len(sampling.sample(study, points)) == 0
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (None, "cannot be read"),
+        ("x\n1\n", "a column of numbers for each of x y"),
+        ("x,y\n1,a\n", "a column of numbers for each of x y"),
+        ("x,y\n0.5,0.5\n1,1\n", "row 2 .* breaks x <= 0.9"),
+    ],
+)
+def test_a_table_that_will_not_do_is_named(tmp_path, text, said):
+    if text:
+        (tmp_path / "own.csv").write_text(text)
+    study = read(
+        make_study(
+            tmp_path,
+            (
+                "sampling: {method: latinHypercube, designs: 4}",
+                "constraints: [x <= 0.9]\nsampling: {method: table, file: own.csv}",
+            ),
+        )
+    )
+    with pytest.raises(StudyError, match=said):
+        sampling.sample(study, [])

@@ -10,7 +10,8 @@ concern:
     api           the study from Python
     expressions   what constraints and derived quantities may say
     section       mappings of a file, with the keys they may have
-    study_file    reads the study file and says what is wrong with it
+    study_file    reads the study file and says what is wrong with it;
+                  response_section, descend_section parts of it
     sampling      factorial, Latin hypercube, Sobol, under constraints
     designs       the table of designs, which only grows
     case_folder   a design's case, from the template or the baseline
@@ -24,5 +25,7 @@ concern:
     metamodel     kriging and its leave-one-out error
     pareto        NSGA-II and the clusters of its front
     plots         pictures of all this
-    check, sample, status, fit, optimise, report    the verbs
+    geometry      responses that need no flow
+    slopes        derivatives by the chain rule
+    check, sample, status, fit, optimise, descend, importance, report: the verbs
 """

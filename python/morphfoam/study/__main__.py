@@ -16,6 +16,8 @@ VERBS = {
     "status": "what is finished, what failed and why, time left",
     "fit": "kriging of each response, leave-one-out error",
     "optimise": "Pareto front, clusters, representatives, verification",
+    "descend": "from the baseline to the nearest optimum; killed, say it again",
+    "importance": "which parameters the descent owes its gain to",
     "report": "one HTML page",
 }
 
@@ -30,11 +32,11 @@ def parser():
     for verb, meaning in VERBS.items():
         one = verbs.add_parser(verb, help=meaning, description=meaning)
         one.add_argument("study", metavar="STUDYFILE")
-        if verb in ("run", "fit", "optimise"):
+        if verb in ("run", "fit", "optimise", "descend", "importance"):
             one.add_argument("-strategy", help="default: the file's first")
-        if verb in ("run", "optimise", "status"):
+        if verb in ("run", "optimise", "descend", "importance", "status"):
             one.add_argument("-cores", type=int, help="default: all")
-        if verb in ("run", "optimise"):
+        if verb in ("run", "optimise", "descend", "importance"):
             one.add_argument(
                 "-profile",
                 help="a profile of Snakemake, for" " Slurm and the like",
@@ -55,6 +57,16 @@ def parser():
                 metavar="ID",
                 help="make these again, those that 'failed', or the"
                 " 'baseline' and all that is made from it",
+            )
+        if verb == "importance":
+            one.add_argument(
+                "-counts",
+                type=int,
+                nargs="+",
+                default=[],
+                metavar="N",
+                help="descend again with so many parameters, those that"
+                " matter most",
             )
         if verb == "optimise":
             one.add_argument(
@@ -89,7 +101,7 @@ def main():
     module = importlib.import_module("." + name, __package__)
     found = getattr(module, verb)(study, **options)
     # The others return what they made
-    return found if verb in ("run", "optimise") else 0
+    return found if verb in ("run", "optimise", "descend", "importance") else 0
 
 
 def command():

@@ -174,6 +174,32 @@ class Study:
             self._optimised(strategy, "representatives.csv"), "design"
         )
 
+    def descend(self, strategy=None, cores=None, profile=None):
+        """Descend from the baseline (and other starts) to the nearest optimum;
+        the table of where the starts ended, the best first. history() has the
+        steps.
+
+        >>> best = study.descend()
+        >>> round(best.f[0], 2), len(study.history()) > 1
+        (0.24, True)
+        """
+        strategy = self._strategy(strategy)
+        self._verb("descend", strategy, cores, profile)
+        return frames.read_csv(self._descended(strategy, "optima.csv"))
+
+    def history(self, strategy=None):
+        """The iterations of descend()."""
+        return frames.read_csv(self._descended(strategy, "history.csv"))
+
+    def _descended(self, strategy, name):
+        path = self.folder / f"descend.{self._strategy(strategy)}" / name
+        if not path.exists():
+            raise StudyError(
+                f"there is no {path} yet. Call descend() first, or"
+                f" 'morphStudy descend {self.file.path.name}'"
+            )
+        return path
+
     def report(self):
         """Write the page with all there is so far; its path."""
         return self._verb("report")

@@ -209,6 +209,8 @@ def commands(study):
             yield f"responses/{response.name}", response.command
     if study.picture:
         yield "picture", study.picture
+    if study.descend and study.descend.geometry:
+        yield "descend/geometry", study.descend.geometry
 
 
 def check_commands(study):

@@ -12,6 +12,8 @@ import numpy as np
 from .errors import StudyError
 
 SAMPLED, VERIFICATION = "sample", "verification"
+# Points of a descent, and those that its differences are made of
+DESCENT, GRADIENT = "descent", "gradient"
 
 
 @dataclass

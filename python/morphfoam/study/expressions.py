@@ -150,9 +150,9 @@ class Expression:
 class Condition:
     """A comparison of expressions, or several with and, or, not."""
 
-    def __init__(self, text, where="constraint"):
+    def __init__(self, text, where="constraint", equalities=False):
         self.text, self.where = str(text), where
-        self.leaves = []
+        self.leaves, self.equalities = [], equalities
         self.root = self._build(parse(text, where))
 
     @property
@@ -169,7 +169,8 @@ class Condition:
         return leaf
 
     def _build(self, node, negate=False):
-        """Nested tuples ('all'|'any', parts) and (side, side): left <= right."""
+        """Nested tuples ('all'|'any', parts) and (side, side): left <= right,
+        or ('equal', side, side)."""
         if isinstance(node, ast.BoolOp):
             every = isinstance(node.op, ast.And) != negate
             return (
@@ -190,6 +191,12 @@ class Condition:
                 parts.append((left, right))
             elif isinstance(comparison, (ast.GtE, ast.Gt, ast.LtE, ast.Lt)):
                 parts.append((right, left))
+            elif (
+                isinstance(comparison, ast.Eq)
+                and self.equalities
+                and not negate
+            ):
+                parts.append(("equal", left, right))
             else:
                 raise StudyError(
                     f"{self.where}: '{self.text}' compares by something other"
@@ -197,6 +204,23 @@ class Condition:
                     " make one of the two a derived quantity"
                 )
         return ("any" if negate else "all", parts)
+
+    def sides(self):
+        """[(left, right, whether they must be equal)], of which all must hold:
+        left <= right. Stops where it has alternatives."""
+        found, waiting = [], [self.root]
+        while waiting:
+            node = waiting.pop(0)
+            if node[0] == "any" and len(node[1]) > 1:
+                raise StudyError(
+                    f"{self.where}: '{self.text}' has alternatives, between"
+                    " which a descent cannot choose. Make a study of each"
+                )
+            if node[0] in ("all", "any"):
+                waiting = [*node[1], *waiting]
+            else:
+                found.append((*node[-2:], node[0] == "equal"))
+        return found
 
     def violation(self, values, baseline=None):
         """By how much it is missed; 0 where it holds."""
@@ -208,8 +232,10 @@ class Condition:
             return (np.add if node[0] == "all" else np.minimum).reduce(
                 np.broadcast_arrays(*parts)
             )
-        left, right = (side(values, baseline) for side in node)
+        left, right = (side(values, baseline) for side in node[-2:])
         missed = np.nan_to_num(left - right, nan=np.inf)
+        if node[0] == "equal":
+            missed = np.abs(missed)
         return np.where(
             missed > ROUNDING * (np.abs(left) + np.abs(right)), missed, 0.0
         )

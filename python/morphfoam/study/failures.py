@@ -3,10 +3,11 @@
 
 """Why designs failed: the log's own sentence, and classes of such reasons."""
 
+import contextlib
 import re
 from dataclasses import dataclass
 
-from . import case_folder
+from . import case_folder, responses
 
 # What is said of a class, and the reasons that belong to it
 CLASSES = [
@@ -35,7 +36,7 @@ def why(log, status):
     for pattern in (FOLD, INVALID):
         found = pattern.search(text)
         if found:
-            return " ".join(found.group().split())[:300]
+            return " ".join(found.group().split())[:400]
     if "--> FOAM FATAL" in text:
         return case_folder.first_error(text)[:300]
     if "sigFpe" in text or "Floating point exception" in text:
@@ -55,6 +56,28 @@ def safe_scale(text):
     None."""
     found = FOLD.search(text)
     return float(found.group(1)) if found else None
+
+
+def blamed(reason):
+    """The parameters that a lattice's fold is put down to."""
+    found = re.search(r"Parameters that cause it: (.*?) Largest safe", reason)
+    return re.findall(r"[A-Za-z_]\w*", found.group(1)) if found else []
+
+
+def attainable(case, logs):
+    """The fraction of the motion that a valid mesh allows, of a run that failed
+    of it; None where it is not known."""
+    for log in logs:
+        if log.exists():
+            scale = safe_scale(log.read_text(errors="replace"))
+            if scale is not None:
+                return scale
+    with contextlib.suppress(responses.ResponseError):
+        text = responses.newest(
+            case, "postProcessing/**/morphMesh/*/motion"
+        ).read_text()
+        found = re.search(r"^attainable\s+(\S+);", text, re.MULTILINE)
+        return float(found.group(1)) if found else None
 
 
 def kind(outcome):

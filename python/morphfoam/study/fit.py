@@ -11,10 +11,12 @@ from .errors import StudyError
 
 def finished(study, strategy):
     """Designs that are done, verifications of optima too, with their
-    outcomes."""
+    outcomes. Not those of differences: side by side, they would say of a model
+    that it predicts what is in fact next to a design."""
     pairs = [
         (d, outcomes.read(study, strategy, d.number))
         for d in designs.read(study)
+        if d.origin != designs.GRADIENT
     ]
     return [(d, o) for d, o in pairs if outcomes.is_done(o)]
 

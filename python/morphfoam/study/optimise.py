@@ -84,7 +84,7 @@ def front(study, found):
             **predictions,
         }
         violation = sum(
-            (c.violation(values, study.baseline_values) for c in limits),
+            (c.violation(values, baseline) for c in limits),
             np.zeros(len(rows)),
         )
         return (
@@ -93,6 +93,7 @@ def front(study, found):
         )
 
     limits = [*study.constraints, *wanted.constraints]
+    baseline = outcomes.baseline_values(study)
     signs = list(wanted.objectives.values())
     try:
         points, objectives = pareto.nsga2(
@@ -119,7 +120,7 @@ def best_attainable(study, found, limits, point):
     values = study.values(dict(zip(study.names, point)))
     values.update({n: float(m(point[None])[0]) for n, m in found.items()})
     missed = {
-        c.text: float(c.violation(values, study.baseline_values))
+        c.text: float(c.violation(values, outcomes.baseline_values(study)))
         for c in limits
     }
     return (

@@ -38,6 +38,7 @@ class Outcome:
     motion          attainable and moved fraction of the motion
     iterations      of the solver; None: it was not reached
     picture         its path in the study's folder
+    gradients       {response: {parameter: derivative}}, of tables
     made            the recipe, response_texts: how responses are read; what
                     the study file says now is compared with them
     """
@@ -48,6 +49,7 @@ class Outcome:
     wall: dict = field(default_factory=dict)
     cpu: dict = field(default_factory=dict)
     responses: dict = field(default_factory=dict)
+    gradients: dict = field(default_factory=dict)
     notes: dict = field(default_factory=dict)
     quality: dict = field(default_factory=dict)
     motion: dict = field(default_factory=dict)
@@ -125,6 +127,18 @@ def is_done(outcome):
     return outcome is not None and outcome.done
 
 
+def baseline_values(study):
+    """What baseline.x means: parameters, derived quantities, and responses
+    once the baseline has run."""
+    outcome = (
+        read(study, BASELINE) if study.baseline_steps is not None else None
+    )
+    return {
+        **study.baseline_values,
+        **(outcome.responses if outcome else {}),
+    }
+
+
 def recipe(study, strategy):
     """Everything of the study file that made a design what it is. Without paths,
     so that a study may be moved; responses are read again where only they
@@ -157,10 +171,12 @@ def changes(study, strategy, outcome):
 
 def response_texts(study):
     """What responses and notes are read by, to see when that has changed."""
+    # Keys that are not set are left out, so that new ones change nothing
     return {
         name: [
             str(v.text if k == "expression" and v else v)
             for k, v in vars(r).items()
+            if k not in ("row", "gradient") or v is not None
         ]
         for name, r in [*study.responses.items(), *study.notes.items()]
     }

@@ -14,8 +14,19 @@ import numpy as np  # noqa: E402
 
 from . import designs, outcomes  # noqa: E402
 
+# Parameters of which each pair can be shown
+MANY = 6
 COLOURS = pyplot.get_cmap("tab10").colors
 GREY = "0.6"
+# What became of a design, or what it was made for
+KINDS = {
+    "gradient": (".", "0.8"),
+    "done": ("o", COLOURS[0]),
+    "failed": ("x", COLOURS[3]),
+    "verification": ("D", COLOURS[2]),
+    "descent": ("D", COLOURS[1]),
+    "not run": (".", GREY),
+}
 
 
 def grid(rows, columns, width=3.4, height=3.0):
@@ -168,6 +179,8 @@ def sampled(study, strategy, path):
             else d.origin
         )
     points, kinds = designs.points(study, table), np.array(kinds)
+    if len(study.names) > MANY:
+        return parallel(study, points, kinds, path)
     pairs = [(i, j) for i in range(len(study.names)) for j in range(i)] or [
         (0, 0)
     ]
@@ -175,14 +188,8 @@ def sampled(study, strategy, path):
     figure, axes = grid(math.ceil(len(pairs) / columns), columns)
     for axis in axes.flat[len(pairs) :]:
         axis.axis("off")
-    style = {
-        "done": ("o", COLOURS[0]),
-        "failed": ("x", COLOURS[3]),
-        "verification": ("D", COLOURS[2]),
-        "not run": (".", GREY),
-    }
     for axis, (i, j) in zip(axes.flat, pairs):
-        for kind, (mark, colour) in style.items():
+        for kind, (mark, colour) in KINDS.items():
             chosen = kinds == kind
             if chosen.any():
                 axis.plot(
@@ -206,11 +213,35 @@ def sampled(study, strategy, path):
     save(figure, path)
 
 
+def parallel(study, points, kinds, path):
+    """Many parameters: each an axis from its lowest to its highest value,
+    each design a line."""
+    figure, axes = grid(1, 1, 9, 3.5)
+    axis = axes[0, 0]
+    unit = (points - study.lows) / (study.highs - study.lows)
+    for kind, (_, colour) in KINDS.items():
+        for k, line in enumerate(unit[kinds == kind]):
+            axis.plot(
+                line,
+                color=colour,
+                lw=0.6,
+                alpha=0.6,
+                label=None if k else kind,
+            )
+    axis.set_xticks(range(len(study.names)), study.names, rotation=90)
+    axis.set(ylim=(-0.02, 1.02), ylabel="in parts of the bounds")
+    axis.legend(fontsize=7)
+    save(figure, path)
+
+
 def trends(study, rows, path):
-    """Each response over each parameter, of the designs that are done."""
-    figure, axes = grid(len(study.responses), len(study.names), 2.8, 2.2)
+    """Each response over each parameter, of the designs that are done; of many
+    parameters those that it follows most closely."""
+    shown = min(MANY, len(study.names))
+    figure, axes = grid(len(study.responses), shown, 2.8, 2.2)
     for line, name in zip(axes, study.responses):
-        for axis, parameter in zip(line, study.names):
+        chosen = closest(study, rows, name)[:shown]
+        for axis, parameter in zip(line, chosen):
             axis.plot(
                 [r[parameter] for r in rows],
                 [r[name] for r in rows],
@@ -219,6 +250,102 @@ def trends(study, rows, path):
                 color=COLOURS[0],
             )
             axis.set(xlabel=parameter, ylabel=name)
+    save(figure, path)
+
+
+def closest(study, rows, name):
+    """The parameters; where there are many, by their correlation with a
+    response."""
+    if len(study.names) <= MANY:
+        return study.names
+    y = np.array([r[name] for r in rows])
+
+    def correlation(parameter):
+        x = np.array([r[parameter] for r in rows])
+        if not x.std() or not y.std():
+            return 0
+        return -abs(np.corrcoef(x, y)[0, 1])
+
+    return sorted(study.names, key=correlation)
+
+
+def descent(study, rows, path):
+    """Objective and constraints over the runs that they took, and where the
+    parameters went. Rows: of the history, of which those with a start are
+    drawn."""
+    name = study.descend.objective
+    figure, axes = grid(1, 3, 4.6, 3.6)
+    objective, missed, moved = axes[0]
+    span = study.highs - study.lows
+    for start in dict.fromkeys(r["start"] for r in rows):
+        own = [r for r in rows if r["start"] == start and r[name] != ""]
+        taken = [r for r in own if r["taken"] == "yes"]
+        colour = COLOURS[(int(start) - 1) % 10]
+        for axis, key in ((objective, name), (missed, "missed")):
+            axis.plot(
+                [r["runs"] for r in taken],
+                [r[key] for r in taken],
+                "o-",
+                ms=4,
+                color=colour,
+                label=f"start {start}",
+            )
+            axis.plot(
+                [r["runs"] for r in own if r["taken"] == "no"],
+                [r[key] for r in own if r["taken"] == "no"],
+                "x",
+                ms=4,
+                color=colour,
+            )
+        ends = [
+            (np.array([r[n] for n in study.names]) - study.lows) / span
+            for r in (taken[0], taken[-1])
+        ]
+        moved.plot(ends[1], "o-", ms=4, color=colour, lw=1)
+        if str(start) == "1":
+            moved.plot(ends[0], color=GREY, lw=1)
+    objective.set(xlabel="runs", ylabel=name, title="x: not taken")
+    missed.set(xlabel="runs", ylabel="constraints missed by (parts)")
+    missed.set_yscale("symlog", linthresh=1e-4)
+    moved.set_xticks(
+        range(len(study.names)), study.names, rotation=90, fontsize=7
+    )
+    moved.set(
+        ylim=(-0.03, 1.03),
+        ylabel="in parts of the bounds",
+        title="the end; grey: the start",
+    )
+    if len({r["start"] for r in rows}) > 1:
+        objective.legend(fontsize=7)
+    save(figure, path)
+
+
+def importance(rows, elimination, objective, path):
+    """Each parameter's share of a descent's gain, and what few of them
+    reach."""
+    figure, axes = grid(1, 2 if elimination else 1, 5.5, 3.4)
+    axis = axes[0, 0]
+    names = [row["parameter"] for row in rows]
+    axis.bar(names, [100 * row["share"] for row in rows], color=COLOURS[0])
+    axis.tick_params(axis="x", rotation=90)
+    axis.set(ylabel="share of the gain [%]")
+    if elimination:
+        axis = axes[0, 1]
+        axis.plot(
+            [int(r["parameters"]) for r in elimination],
+            [float(r["objective"]) for r in elimination],
+            "o-",
+            ms=5,
+        )
+        for r in elimination:
+            axis.annotate(
+                f"{r['runs']} runs",
+                (int(r["parameters"]), float(r["objective"])),
+                xytext=(4, 4),
+                textcoords="offset points",
+                fontsize=8,
+            )
+        axis.set(xlabel="parameters", ylabel=f"{objective} reached")
     save(figure, path)
 
 

@@ -29,7 +29,15 @@ tr.failed td { background: #fdecea; }
 
 
 # Columns of words
-TEXTS = ("reason", "where", "expression", "class", "the first says")
+TEXTS = (
+    "reason",
+    "where",
+    "expression",
+    "class",
+    "the first says",
+    "note",
+    "why",
+)
 
 
 def text(value):
@@ -149,6 +157,7 @@ class Report:
             self.picture(plots.trends, study, done)
         self.models(name)
         self.optima(name, rows)
+        self.descent(name)
         self.add("<h3>All designs</h3>", table(rows))
         self.gallery(name, done)
 
@@ -194,6 +203,26 @@ class Report:
         )
         numbers = {row["design"] for row in chosen}
         self.gallery(name, [r for r in rows if r["design"] in numbers])
+
+    def descent(self, name):
+        path = self.study.folder / f"descend.{name}"
+        if not (path / "optima.csv").exists():
+            return
+        history = read_table(path / "history.csv")
+        shown = [
+            key
+            for key in history[0]
+            if key not in self.study.names and key != "note"
+        ]
+        self.add(
+            "<h3>Descent</h3>",
+            image(path / "history.png"),
+            "<p>Where it ended, the best start first:</p>",
+            table(read_table(path / "optima.csv")),
+            "<p>Its iterations; those that were not taken are trials that"
+            " gained too little, or failed:</p>",
+            table(history, [*shown, "note"]),
+        )
 
     def gallery(self, name, rows):
         for row in rows:
@@ -255,11 +284,16 @@ class Report:
 def counts(study, rows):
     """How many designs there are, of which origin, and what became of them."""
     origins = [d.origin for d in designs.read(study)]
-    sampled = origins.count(designs.SAMPLED)
-    others = len(origins) - sampled
-    kinds = f"{sampled} sampled"
-    if others:
-        kinds += f" and {others} verification{'s' * (others > 1)}"
+    kinds = [f"{origins.count(designs.SAMPLED)} sampled"]
+    for origin, words in (
+        (designs.VERIFICATION, ("verification", "verifications")),
+        (designs.DESCENT, ("of descents", "of descents")),
+        (designs.GRADIENT, ("for differences", "for differences")),
+    ):
+        count = origins.count(origin)
+        if count:
+            kinds.append(f"{count} {words[count > 1]}")
+    kinds = " and ".join(kinds)
     own = [r["status"] for r in rows if r["origin"] != "baseline"]
     return (
         f"Of {len(origins)} designs ({kinds})"

@@ -59,6 +59,12 @@ def of_table(path, response):
                 f" columns are {' '.join(names) or 'unnamed'}"
             )
         column = names.index(column)
+    if response.row is not None:
+        rows = [row for row in rows if row[0] == response.row]
+        if not rows:
+            raise ResponseError(f"{path.name} has no row {response.row}")
+        # The first word is its name
+        rows = [["0", *row[1:]] for row in rows]
     try:
         table = [(float(row[0]), float(row[column])) for row in rows]
     except (IndexError, ValueError) as error:
@@ -69,6 +75,25 @@ def of_table(path, response):
         return table[-1][1]
     end = table[-1][0]
     return float(np.mean([v for t, v in table if t > end - response.window]))
+
+
+def of_derivatives(path, gradient):
+    """{parameter: derivative}; a parameter of a box is called box.name."""
+    names, rows = columns(path)
+    column = gradient.column
+    if isinstance(column, str):
+        if column not in names:
+            raise ResponseError(
+                f"{path.name} has no column {column}; its columns are"
+                f" {' '.join(names) or 'unnamed'}"
+            )
+        column = names.index(column)
+    try:
+        return {row[0].rpartition(".")[2]: float(row[column]) for row in rows}
+    except (IndexError, ValueError) as error:
+        raise ResponseError(
+            f"{path.name}, column {gradient.column}: {error}"
+        ) from None
 
 
 def of_text(path, response):
@@ -116,18 +141,26 @@ def of_command(command, case, environment):
 
 
 class Reader:
-    """Reads the responses and notes of one case."""
+    """Reads the responses and notes of one case.
 
-    def __init__(self, study, case, parameters, environment):
+    baseline  values at the baseline, its responses among them; None: this is
+              the baseline
+    """
+
+    def __init__(self, study, case, parameters, environment, baseline=None):
         self.study, self.case = study, case
         self.environment = environment
         self.known = dict(study.values(parameters))
+        self.baseline = self.known if baseline is None else baseline
         self.printed = {}
 
-    def responses(self):
-        """All of them. Raises ResponseError, naming the response."""
+    def responses(self, names=None):
+        """All of them, or those of these names. Raises ResponseError, naming
+        the response."""
         values = {}
         for name, response in self.study.responses.items():
+            if names is not None and name not in names:
+                continue
             try:
                 value = self._read_one(response)
             except ResponseError as error:
@@ -143,6 +176,33 @@ class Reader:
             self.known[name] = values[name] = value
         return values
 
+    def gradients(self, names=None):
+        """{response: {parameter: derivative}}, of those that have a table."""
+        values = {}
+        for name, response in self.study.responses.items():
+            if (
+                not response.gradient
+                or names is not None
+                and (name not in names)
+            ):
+                continue
+            try:
+                values[name] = of_derivatives(
+                    newest(self.case, response.gradient.file),
+                    response.gradient,
+                )
+            except ResponseError as error:
+                raise ResponseError(
+                    f"response {name}/gradient: {error}"
+                ) from None
+            if not values[name].keys() & self.study.baseline_values.keys():
+                raise ResponseError(
+                    f"response {name}/gradient: none of its rows"
+                    f" ({' '.join(list(values[name])[:8])}) has the name of a"
+                    " parameter or derived quantity of the study"
+                )
+        return values
+
     def notes(self):
         """Those that can be read."""
         values = {}
@@ -153,9 +213,7 @@ class Reader:
 
     def _read_one(self, response):
         if response.expression:
-            return float(
-                response.expression(self.known, self.study.baseline_values)
-            )
+            return float(response.expression(self.known, self.baseline))
         if response.command:
             values = self._print(response.command)
             if response.name not in values:

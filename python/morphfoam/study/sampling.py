@@ -16,6 +16,7 @@ feasible set: the conditioned Latin hypercube (Minasny and McBratney 2006,
 Computers & Geosciences 32, 1378-1388, doi 10.1016/j.cageo.2005.12.009).
 """
 
+import csv
 import itertools
 
 import numpy as np
@@ -223,7 +224,39 @@ def latin_hypercube(study, existing):
     return study.lows + cube.points * cube.span
 
 
+def table(study, existing):
+    """The rows of a table with a column for each parameter, as others have
+    chosen them."""
+    path = study.root / study.sampling.file
+    try:
+        with path.open() as file:
+            rows = list(csv.DictReader(file))
+        points = np.array(
+            [[float(row[name]) for name in study.names] for row in rows]
+        ).reshape(-1, len(study.names))
+    except OSError as error:
+        raise StudyError(
+            f"sampling/file: {path} cannot be read: {error.strerror}"
+        ) from None
+    except (KeyError, TypeError, ValueError) as error:
+        raise StudyError(
+            f"sampling/file: {path} must be a table (.csv) with a column of"
+            f" numbers for each of {' '.join(study.names)}; wrong is {error}"
+        ) from None
+    bad = np.flatnonzero(~study.feasible(points))
+    if len(bad):
+        row = dict(zip(study.names, points[bad[0]]))
+        raise StudyError(
+            f"sampling/file: row {bad[0] + 1} of {path} breaks"
+            f" {study.broken(row)[0]}. Correct it, or the constraint"
+        )
+    return np.array([p for p in points if is_new(p, existing, study)]).reshape(
+        -1, len(study.names)
+    )
+
+
 METHODS = {
+    "table": table,
     "factorial": factorial,
     "sobol": sobol,
     "latinHypercube": latin_hypercube,

@@ -3,17 +3,24 @@
 
 """Reads the study file: README.md's keys, each checked, nothing else allowed."""
 
-import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from .descend_section import read_descend
 from .errors import StudyError
 from .expressions import Condition, Expression, RESERVED
+from .response_section import read_response
 from .section import Section, interval, load
 
-METHODS = ("latinHypercube", "sobol", "factorial")
+# How many designs, or which: the key that each method of sampling takes
+METHODS = {
+    "latinHypercube": "designs",
+    "sobol": "designs",
+    "factorial": "levels",
+    "table": "file",
+}
 STARTS = ("baseline", "nearest", "template")
 # The study's own folders and columns
 TAKEN = {"baseline", "outcomes", "workflow", "template"}
@@ -49,6 +56,7 @@ class Sampling:
     designs: int | None
     levels: dict | None
     seed: int
+    file: str | None = None
 
 
 @dataclass
@@ -64,20 +72,6 @@ class Strategy:
     name: str
     start: str
     steps: list
-
-
-@dataclass
-class Response:
-    """One source: file with column or regex, command, or expression."""
-
-    name: str
-    file: str | None = None
-    column: str | int | None = None
-    regex: str | None = None
-    window: float | None = None
-    command: str | None = None
-    expression: Expression | None = None
-    limits: tuple = (-math.inf, math.inf)
 
 
 @dataclass
@@ -115,57 +109,6 @@ def read_steps(section, timeout):
     return steps
 
 
-def read_response(name, content, where, steps):
-    item = Section(
-        content,
-        where,
-        (
-            "file",
-            "column",
-            "regex",
-            "window",
-            "command",
-            "expression",
-            "limits",
-        ),
-    )
-    sources = [k for k in ("file", "command", "expression") if k in item]
-    if len(sources) != 1:
-        raise StudyError(
-            f"{where} needs one of file, command, expression;"
-            f" it has {' and '.join(sources) or 'none'}"
-        )
-    response = Response(
-        name,
-        item.text("file", None),
-        item.get("column", None),
-        item.regex("regex", None, groups=1),
-        item.number("window", None, low=1e-300),
-        item.text("command", None),
-    )
-    if "limits" in item:
-        response.limits = interval(item.get("limits"), item.at("limits"))
-    if "expression" in item:
-        response.expression = Expression(
-            item.get("expression"), item.at("expression")
-        )
-    if response.file and ("column" in item) == ("regex" in item):
-        raise StudyError(
-            f"{where} has a file; it needs a column of its table,"
-            " or a regex for its text, one of the two"
-        )
-    if not response.file and {"column", "regex", "window"} & set(item.content):
-        raise StudyError(f"{where}: column, regex and window belong to a file")
-    if response.file and response.file.startswith("log."):
-        if response.file[4:] not in steps:
-            raise StudyError(
-                f"{where}/file: not every strategy has a step that writes"
-                f" {response.file}. Steps that they share:"
-                f" {' '.join(sorted(steps)) or 'none'}"
-            )
-    return response
-
-
 class StudyFile:
     """A study file that was found right, and what follows from it."""
 
@@ -188,6 +131,7 @@ class StudyFile:
         "picture",
         "fit",
         "optimise",
+        "descend",
     )
 
     def __init__(self, path, content=None):
@@ -216,6 +160,7 @@ class StudyFile:
         self._read_responses(file)
         self._read_fit(file)
         self._read_optimise(file)
+        self.descend = read_descend(file, self)
 
     @property
     def names(self):
@@ -257,6 +202,26 @@ class StudyFile:
             for c in self.constraints
             if c.violation(values, self.baseline_values) > 0
         ]
+
+    def needs_baseline(self, strategy):
+        """Whether the baseline has to have run: designs start from it, or an
+        expression asks for its responses."""
+        expressions = [
+            r.expression
+            for r in [*self.responses.values(), *self.notes.values()]
+            if r.expression
+        ]
+        conditions = [
+            *(self.optimise.constraints if self.optimise else []),
+            *(self.descend.constraints if self.descend else []),
+        ]
+        asked = set().union(
+            *(e.baseline_names for e in expressions),
+            *(leaf.baseline_names for c in conditions for leaf in c.leaves),
+        )
+        return self.strategies[strategy].start != "template" or bool(
+            asked & set(self.responses)
+        )
 
     def targets(self):
         return [
@@ -323,7 +288,7 @@ class StudyFile:
         item = Section(
             file.get("sampling"),
             "sampling",
-            ("method", "designs", "levels", "seed"),
+            ("method", "seed", *dict.fromkeys(METHODS.values())),
         )
         method = item.text("method")
         if method not in METHODS:
@@ -331,21 +296,21 @@ class StudyFile:
                 f"sampling/method is {method}; it must be one of"
                 f" {' '.join(METHODS)}"
             )
-        needs, refuses = (
-            ("levels", "designs")
-            if method == "factorial"
-            else ("designs", "levels")
-        )
-        if refuses in item:
-            raise StudyError(
-                f"sampling/{refuses} says nothing to {method},"
-                f" which takes {needs}"
-            )
+        needs = METHODS[method]
+        for refused in METHODS.values():
+            if refused in item and refused != needs:
+                raise StudyError(
+                    f"sampling/{refused} says nothing to {method},"
+                    f" which takes {needs}"
+                )
         self.sampling = Sampling(
             method, None, None, item.number("seed", 1, low=0, whole=True)
         )
-        if method != "factorial":
+        if needs == "designs":
             self.sampling.designs = item.number("designs", low=1, whole=True)
+            return
+        if needs == "file":
+            self.sampling.file = item.text("file")
             return
         levels = item.get("levels")
         if not isinstance(levels, dict):
@@ -417,6 +382,7 @@ class StudyFile:
                 response.expression.check(
                     [*self.baseline_values, *self.responses]
                 )
+                self._needs_baseline(response.expression)
             self.responses[name] = response
 
         steps = {
@@ -431,6 +397,15 @@ class StudyFile:
             if note.expression:
                 note.expression.check([*self.baseline_values, *self.responses])
             self.notes[name] = note
+
+    def _needs_baseline(self, expression):
+        """baseline.x of a response is what the baseline's run gave."""
+        asked = expression.baseline_names & set(self.responses)
+        if asked and self.baseline_steps is None:
+            raise StudyError(
+                f"{expression.where}: there is no baseline.{min(asked)},"
+                " because no baseline is run. Add baseline/steps"
+            )
 
     def _known(self, names, where):
         for name in names:

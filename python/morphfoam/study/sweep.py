@@ -58,8 +58,9 @@ def selected(study, only):
             f" first: morphStudy sample {study.path.name}"
         )
     for design in all_:
+        # Differences may step across
         broken = study.broken(design.parameters)
-        if broken:
+        if broken and design.origin != designs.GRADIENT:
             raise StudyError(
                 f"design {design.id} breaks the constraint {broken[0]}: the"
                 " constraints have changed since it was sampled. Remove its row"
@@ -211,6 +212,7 @@ def read_again(study, outcome):
     try:
         reader = maker.reader()
         outcome.responses = reader.responses()
+        outcome.gradients = reader.gradients()
         outcome.notes = reader.notes()
         outcome.status, outcome.reason = outcomes.DONE, ""
     except responses.ResponseError as error:
@@ -246,7 +248,7 @@ def plan(study, strategy, chosen, snapshot):
         }
 
     start = study.strategies[strategy].start
-    if start != "template" and not outcomes.is_done(
+    if study.needs_baseline(strategy) and not outcomes.is_done(
         outcomes.read(study, outcomes.BASELINE)
     ):
         add("baseline", outcomes.BASELINE, 0, [])
@@ -266,6 +268,16 @@ def plan(study, strategy, chosen, snapshot):
 
 def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
     """Returns the exit status: 0 when every design has an outcome."""
+    strategy, cores = prepared(study, strategy, cores, profile)
+    chosen = selected(study, only)
+    with only_one(study):
+        forget(study, strategy, chosen, redo)
+        complete(study, strategy, chosen, cores, profile)
+        return results.conclude(study, strategy, chosen)
+
+
+def prepared(study, strategy, cores, profile):
+    """Strategy and cores, by default the first and all; checked."""
     strategy = strategy or next(iter(study.strategies))
     if strategy not in study.strategies:
         raise StudyError(
@@ -280,28 +292,29 @@ def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
             f" are {cores}. Give more (-cores), or let it take"
             " fewer"
         )
-    chosen = selected(study, only)
-    with only_one(study):
-        forget(study, strategy, chosen, redo)
-        keep_up(study, strategy, [d.number for d in chosen])
-        workflow = study.folder / "workflow"
-        shutil.rmtree(workflow, ignore_errors=True)
-        workflow.mkdir()
-        snapshot = workflow / "study.yaml"
-        shutil.copy(study.path, snapshot)
-        jobs = plan(study, strategy, chosen, snapshot)
-        (workflow / "plan.json").write_text(
-            json.dumps({"cores": study.cores, "jobs": jobs}, indent=1)
+    return strategy, cores
+
+
+def complete(study, strategy, chosen, cores, profile):
+    """Run what is missing of these designs, and the baseline."""
+    keep_up(study, strategy, [d.number for d in chosen])
+    workflow = study.folder / "workflow"
+    shutil.rmtree(workflow, ignore_errors=True)
+    workflow.mkdir()
+    snapshot = workflow / "study.yaml"
+    shutil.copy(study.path, snapshot)
+    jobs = plan(study, strategy, chosen, snapshot)
+    (workflow / "plan.json").write_text(
+        json.dumps({"cores": study.cores, "jobs": jobs}, indent=1)
+    )
+    if jobs:
+        progress = Progress(
+            study,
+            strategy,
+            chosen,
+            None if profile else max(1, cores // study.cores),
         )
-        if jobs:
-            progress = Progress(
-                study,
-                strategy,
-                chosen,
-                None if profile else max(1, cores // study.cores),
-            )
-            engine(study, workflow, cores, profile, progress)
-        return results.conclude(study, strategy, chosen)
+        engine(study, workflow, cores, profile, progress)
 
 
 def engine(study, workflow, cores, profile, progress):
@@ -355,7 +368,7 @@ class Progress:
                 self.times.append(outcome.seconds)
             else:
                 self.waiting.append(design.number)
-        self.baseline = study.strategies[strategy].start != "template" and (
+        self.baseline = study.needs_baseline(strategy) and (
             not outcomes.is_done(outcomes.read(study, outcomes.BASELINE))
         )
         if self.baseline:

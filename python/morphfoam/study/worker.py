@@ -35,6 +35,28 @@ class DesignFailed(Exception):
     """The reason that is recorded."""
 
 
+def environment(study, case):
+    """Of what runs in a case folder."""
+    return {
+        **os.environ,
+        "PWD": str(case),
+        "MORPHSTUDY_TEMPLATE": str(study.template),
+        "MORPHSTUDY_STUDY": str(study.root),
+        "MORPHSTUDY_BASELINE": str(outcomes.case(study, outcomes.BASELINE)),
+    }
+
+
+def copy_baseline(study, case):
+    """The baseline's case, with what was corrected in the template since;
+    the baseline's outcome."""
+    case_folder.copy_case(outcomes.case(study, outcomes.BASELINE), case)
+    baseline = outcomes.read(study, outcomes.BASELINE)
+    case_folder.copy_files(
+        study, case_folder.corrections(study, baseline)[0], case
+    )
+    return baseline
+
+
 class Worker:
     """One design or the baseline."""
 
@@ -55,19 +77,17 @@ class Worker:
         self.case = outcomes.case(study, strategy, self.number)
 
     def environment(self):
-        return {
-            **os.environ,
-            "PWD": str(self.case),
-            "MORPHSTUDY_TEMPLATE": str(self.study.template),
-            "MORPHSTUDY_STUDY": str(self.study.root),
-            "MORPHSTUDY_BASELINE": str(
-                outcomes.case(self.study, outcomes.BASELINE)
-            ),
-        }
+        return environment(self.study, self.case)
 
     def reader(self):
         return responses.Reader(
-            self.study, self.case, self.parameters, self.environment()
+            self.study,
+            self.case,
+            self.parameters,
+            self.environment(),
+            None
+            if self.strategy.name == outcomes.BASELINE
+            else outcomes.baseline_values(self.study),
         )
 
     def work(self):
@@ -77,7 +97,9 @@ class Worker:
             try:
                 self.make_case()
                 self.run_steps()
-                self.outcome.responses = self.reader().responses()
+                reader = self.reader()
+                self.outcome.responses = reader.responses()
+                self.outcome.gradients = reader.gradients()
                 status, reason = outcomes.DONE, ""
             except (
                 DesignFailed,
@@ -118,15 +140,7 @@ class Worker:
         if self.strategy.start == "template":
             case_folder.copy_template(self.study, self.case)
         else:
-            case_folder.copy_case(
-                outcomes.case(self.study, outcomes.BASELINE), self.case
-            )
-            baseline = outcomes.read(self.study, outcomes.BASELINE)
-            case_folder.copy_files(
-                self.study,
-                case_folder.corrections(self.study, baseline)[0],
-                self.case,
-            )
+            baseline = copy_baseline(self.study, self.case)
             self.outcome.started_from = outcomes.BASELINE
             self.outcome.baseline_made = baseline.finished
             if self.strategy.start == "nearest":
