@@ -8,10 +8,10 @@ What the dictionaries of this case take from there: vertices and cell counts
 for blockMesh, where the morph takes each corner, the mean velocity that
 carries the flow rate. Lengths in units of the channel's height H.
 
-    geometry.py [-baselineCells]
+    geometry.py [-baselineCells] [-refine N]
 
 -baselineCells: the numbers of cells of the baseline's mesh instead of those
-that keep its cell size.
+that keep its cell size. -refine: so many times the cells in each direction.
 """
 
 import math
@@ -25,6 +25,7 @@ LAYER = 0.05  # thickness of the boundary layer's mesh
 DEPTH = 0.1
 BASELINE = {"h": 0.15, "e": 0.305, "E": 0.435}
 CELL, FLANK_CELL = 0.0165, 0.0125
+BASE_CELLS, LAYER_CELLS, OUTER_CELLS = 6, 10, 49
 
 
 def read(path):
@@ -124,11 +125,14 @@ class Rib:
             )
         return curve
 
-    def cells(self):
+    def cells(self, refine=1):
         def number(length, size):
-            return max(8, round(length / size))
+            return refine * max(8, round(length / size))
 
         return {
+            "nBase": refine * BASE_CELLS,
+            "nLayer": refine * LAYER_CELLS,
+            "nOuter": refine * OUTER_CELLS,
             "nFloor": number(LENGTH / 2 - self.width / 2, CELL),
             "nFlank": number(self.flank, FLANK_CELL),
             "nTop": number(self.top, CELL),
@@ -199,7 +203,12 @@ def geometry(rib, cells):
 def main():
     rib = Rib(**read("constant/parameters"))
     same = "-baselineCells" in sys.argv[1:]
-    cells = (Rib(**BASELINE) if same else rib).cells()
+    refine = (
+        int(sys.argv[sys.argv.index("-refine") + 1])
+        if "-refine" in sys.argv
+        else 1
+    )
+    cells = (Rib(**BASELINE) if same else rib).cells(refine)
     Path("constant/geometry").write_text(geometry(rib, cells))
 
 

@@ -33,7 +33,7 @@ def row(case):
         + last(case, "fluid", "outletTemperature")
     )
     wall = last(case, "solid", "wallTemperature")
-    log = (Path(case) / "log.chtMultiRegionSimpleFoam").read_text()
+    log = (Path(case) / "log.conservativeChtSimpleFoam").read_text()
     gradient = float(re.findall(r"pressure gradient = (\S+)", log)[-1])
     nusselt, friction = (
         100 * 2 / (CONDUCTIVITY * (wall - bulk)),

@@ -24,7 +24,8 @@ class Design:
 
     @property
     def id(self):
-        return f"{self.number:04d}"
+        """Its folder's name; number 0 is the baseline."""
+        return f"{self.number:04d}" if self.number else "baseline"
 
 
 def path(study):

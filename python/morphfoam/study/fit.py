@@ -5,19 +5,22 @@
 
 import csv
 
-from . import designs, metamodel, outcomes, plots
+from . import designs, feasibility, metamodel, outcomes, plots
 from .errors import StudyError
 
 
 def finished(study, strategy):
-    """Designs that are done, verifications of optima too, with their
-    outcomes. Not those of differences: side by side, they would say of a model
-    that it predicts what is in fact next to a design."""
+    """Designs that are done, the baseline and verifications of optima too,
+    with their outcomes. Not those of differences: side by side, they would say
+    of a model that it predicts what is in fact next to a design."""
     pairs = [
         (d, outcomes.read(study, strategy, d.number))
         for d in designs.read(study)
         if d.origin != designs.GRADIENT
     ]
+    if study.baseline_steps is not None:
+        baseline = designs.Design(0, outcomes.BASELINE, study.baseline)
+        pairs.append((baseline, outcomes.read(study, outcomes.BASELINE)))
     return [(d, o) for d, o in pairs if outcomes.is_done(o)]
 
 
@@ -86,6 +89,17 @@ def fit(study, strategy=None):
                     model.deviation,
                 )
             )
+    likely = feasibility.fit(study, strategy)
+    with (path / "feasibility.csv").open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["design", "succeeded", "probability"])
+        writer.writerows(
+            zip(
+                [f"{n:04d}" for n in likely.numbers],
+                likely.done.astype(int),
+                likely.predicted,
+            )
+        )
     plots.leave_one_out(found, path / "leaveOneOut.png")
     print(
         f"{strategy}: {len(numbers)} designs; lengths in units of the bounds"
@@ -97,6 +111,7 @@ def fit(study, strategy=None):
                 for k, v in row.items()
             )
         )
+    print(likely)
     print(path / "leaveOneOut.png")
     return found
 

@@ -8,7 +8,16 @@ import csv
 
 import numpy as np
 
-from . import designs, fit, outcomes, pareto, plots, sampling, sweep
+from . import (
+    designs,
+    feasibility,
+    fit,
+    outcomes,
+    pareto,
+    plots,
+    sampling,
+    sweep,
+)
 from .errors import StudyError
 
 
@@ -21,7 +30,8 @@ def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
         )
     strategy = strategy or next(iter(study.strategies))
     found = fit.models(study, strategy)
-    points, objectives = front(study, found)
+    likely = feasibility.fit(study, strategy)
+    points, objectives = front(study, found, likely)
     label, chosen, bic = pareto.clusters(
         points,
         study.lows,
@@ -58,7 +68,7 @@ def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
             profile=profile,
             only=[d.number for d in verified],
         )
-    rows = compare(study, strategy, found, verified, label[chosen])
+    rows = compare(study, strategy, found, verified, label[chosen], likely)
     write_table(
         path / "representatives.csv",
         list(rows[0]),
@@ -73,8 +83,9 @@ def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
     return status
 
 
-def front(study, found):
-    """NSGA-II on the metamodels: points and objectives."""
+def front(study, found, likely):
+    """NSGA-II on the metamodels, where designs are likely to succeed: points
+    and objectives."""
     wanted = study.optimise
 
     def evaluate(rows):
@@ -85,7 +96,7 @@ def front(study, found):
         }
         violation = sum(
             (c.violation(values, baseline) for c in limits),
-            np.zeros(len(rows)),
+            np.maximum(wanted.feasibility - likely(rows), 0),
         )
         return (
             np.stack([predictions[n] for n in wanted.objectives], axis=1),
@@ -107,7 +118,7 @@ def front(study, found):
         )
     except pareto.Infeasible as error:
         raise StudyError(
-            best_attainable(study, found, limits, error.point)
+            best_attainable(study, found, limits, likely, error.point)
         ) from None
     if len(signs) == 1:
         best = [int(np.argmax(objectives[:, 0] * signs[0]))]
@@ -115,7 +126,7 @@ def front(study, found):
     return points, objectives
 
 
-def best_attainable(study, found, limits, point):
+def best_attainable(study, found, limits, likely, point):
     """What is said where no design keeps to all constraints."""
     values = study.values(dict(zip(study.names, point)))
     values.update({n: float(m(point[None])[0]) for n, m in found.items()})
@@ -123,6 +134,10 @@ def best_attainable(study, found, limits, point):
         c.text: float(c.violation(values, outcomes.baseline_values(study)))
         for c in limits
     }
+    probability = float(likely(point[None])[0])
+    missed[f"feasibility >= {study.optimise.feasibility:g}"] = max(
+        study.optimise.feasibility - probability, 0
+    )
     return (
         "optimise/constraints: no design keeps to all of them on the"
         " metamodels. Nearest to it is "
@@ -135,7 +150,7 @@ def best_attainable(study, found, limits, point):
         )
         + " ("
         + ", ".join(f"{name} {values[name]:.4g}" for name in found)
-        + "). Ask for no more than that, or widen the bounds"
+        + f", probability to succeed {probability:.3g}). Ask for no more than that, or widen the bounds"
     )
 
 
@@ -157,7 +172,7 @@ def representatives(study, points):
     ]
 
 
-def compare(study, strategy, found, verified, label):
+def compare(study, strategy, found, verified, label, likely):
     """Predicted against computed, one row per representative."""
     rows = []
     for design, k in zip(verified, label):
@@ -176,6 +191,7 @@ def compare(study, strategy, found, verified, label):
                 if computed not in ("", 0)
                 else ""
             )
+        row["feasibility"] = float(likely(point)[0])
         row["status"] = outcome.status if outcome else "not run"
         rows.append(row)
     return rows

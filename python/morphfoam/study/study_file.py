@@ -82,6 +82,7 @@ class Optimise:
     generations: int = 200
     seed: int = 1
     max_clusters: int = 8
+    feasibility: float = 0.5  # least probability to succeed
 
 
 def read_target(section):
@@ -433,6 +434,7 @@ class StudyFile:
                     "generations",
                     "seed",
                     "maxClusters",
+                    "feasibility",
                 ),
             )
             objectives = item.names("objectives")
@@ -455,7 +457,14 @@ class StudyFile:
                 item.number("generations", 200, low=1, whole=True),
                 item.number("seed", 1, low=0, whole=True),
                 item.number("maxClusters", 8, low=1, whole=True),
+                item.number("feasibility", 0.5, low=0),
             )
+            if self.optimise.feasibility >= 1:
+                raise StudyError(
+                    f"optimise/feasibility is {self.optimise.feasibility:g};"
+                    " no design is certain to succeed: give a probability"
+                    " below 1"
+                )
             if self.optimise.population % 4:
                 raise StudyError(
                     f"optimise/population is {self.optimise.population};"
