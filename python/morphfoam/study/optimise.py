@@ -150,7 +150,8 @@ def best_attainable(study, found, limits, likely, point):
         )
         + " ("
         + ", ".join(f"{name} {values[name]:.4g}" for name in found)
-        + f", probability to succeed {probability:.3g}). Ask for no more than that, or widen the bounds"
+        + f", probability to succeed {probability:.3g}). Ask for no more than"
+        " that, or widen the bounds"
     )
 
 
