@@ -180,7 +180,8 @@ def test_a_double_pendulum_swings_as_its_lagrangian_says(tmp_path, ranks):
 )
 def test_a_double_pendulum_keeps_its_energy(tmp_path, solver, inner, order):
     """To the order of the scheme in the time step. OpenFOAM's symplectic solver
-    takes centrifugal forces at the middle of the step, which is first order."""
+    takes centrifugal forces at the middle of the step, which is first order.
+    """
     errors = []
     start = double_pendulum(np.array(START), np.zeros(2))
     for dt in (0.01, 0.005):

@@ -16,7 +16,14 @@ import pytest
 
 from study_case import ROOT, make_study, read
 
-from morphfoam.study import descend, designs, outcomes, report, sweep
+from morphfoam.study import (
+    descend,
+    designs,
+    outcomes,
+    report,
+    shape_problem,
+    sweep,
+)
 from morphfoam.study.errors import StudyError
 
 GEOMETRY = """
@@ -393,7 +400,9 @@ def test_the_slope_of_derived_quantities_enters(tmp_path, at_once):
     script.write_text(script.read_text().replace("b.x 0", "b.z 0"))
     with sweep.only_one(study):
         sweep.complete(study, "morph", [], 1, None)
-    problem = descend.ShapeProblem(study, "morph", 1, None, study.baseline)
+    problem = shape_problem.ShapeProblem(
+        study, "morph", 1, None, study.baseline
+    )
     values, slopes = problem.exact(np.array([0.4, 0.6]))
     # Scaled by the larger of 0.125, the baseline's volume, and 0.1
     assert values[0] * 0.125 == pytest.approx(0.4 * 0.36 - 0.1, rel=1e-9)

@@ -27,5 +27,6 @@ concern:
     plots         pictures of all this
     geometry      responses that need no flow
     slopes        derivatives by the chain rule
+    shape_problem what the optimiser asks of a study
     check, sample, status, fit, optimise, descend, importance, report: the verbs
 """

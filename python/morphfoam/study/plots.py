@@ -301,12 +301,13 @@ def descent(study, rows, path):
             (np.array([r[n] for n in study.names]) - study.lows) / span
             for r in (taken[0], taken[-1])
         ]
-        moved.plot(ends[1], "o-", ms=4, color=colour, lw=1)
+        moved.plot(ends[1], "o", ms=5, color=colour)
         if str(start) == "1":
             moved.plot(ends[0], color=GREY, lw=1)
     objective.set(xlabel="runs", ylabel=name, title="x: not taken")
     missed.set(xlabel="runs", ylabel="constraints missed by (parts)")
     missed.set_yscale("symlog", linthresh=1e-4)
+    missed.set_ylim(bottom=0)
     moved.set_xticks(
         range(len(study.names)), study.names, rotation=90, fontsize=7
     )

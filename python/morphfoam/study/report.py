@@ -37,6 +37,7 @@ TEXTS = (
     "the first says",
     "note",
     "why",
+    "which",
 )
 
 
@@ -158,6 +159,7 @@ class Report:
         self.models(name)
         self.optima(name, rows)
         self.descent(name)
+        self.importance(name)
         self.add("<h3>All designs</h3>", table(rows))
         self.gallery(name, done)
 
@@ -223,6 +225,19 @@ class Report:
             " gained too little, or failed:</p>",
             table(history, [*shown, "note"]),
         )
+
+    def importance(self, name):
+        folder = self.study.folder / f"importance.{name}"
+        if (folder / "importance.png").exists():
+            self.add(
+                "<h3>Importance</h3>",
+                "<p>Each parameter's share of the gain, and what few of them"
+                " reach.</p>",
+                image(folder / "importance.png"),
+                table(read_table(folder / "parameters.csv")),
+            )
+            if (folder / "elimination.csv").exists():
+                self.add(table(read_table(folder / "elimination.csv")))
 
     def gallery(self, name, rows):
         for row in rows:

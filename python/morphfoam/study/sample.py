@@ -17,7 +17,7 @@ def sample(study):
         f"{len(added)} designs added to {len(table)}:"
         f" {designs.path(study)}"
     )
-    if len(added):
+    if len(added) and len(table) + len(added) > 1:
         distance = sampling.smallest_distance(
             study, designs.points(study, [*table, *added])
         )
