@@ -90,6 +90,7 @@ DICTIONARIES = [
         "shapeConstraint",
         ["shapeConstraint", "shapeConstraints"],
     ),
+    ("optimise, and system/optimiseDict", "optimiseSettings", []),
     ("Function object motionControls", "motionControls", []),
     ("Function object catalyst", "catalystFunctionObject", []),
     (
@@ -108,6 +109,7 @@ DICTIONARIES = [
 EXPLAINED = [
     ("onInvalidMesh", "motionLimiter"),
     ("images", "motionImages"),
+    ("How a mesh is optimised", "meshOptimiser"),
 ]
 
 # Sources that read what no user writes, and why

@@ -59,6 +59,17 @@ Usage
         by each, as pointVectorField d_\<parameter\> in the folder of the time.
         Not with -dryRun.
 
+      - \par -optimise
+        Optimise the mesh after the motion (meshOptimiser.H), with the entries
+        of system/optimiseDict (optimiseSettings.H) if there is one; \c when is
+        always by default. Points of the boundary stay, but in symmetry planes.
+        Targets are the cells of points0 or, without, of the mesh before the
+        motion.
+
+      - \par -noMotion
+        With -optimise: no motion, dynamicMeshDict is not read. Without points0
+        the target are orthogonal cells.
+
       - \par -region \<name\>
         The mesh region.
 
@@ -103,6 +114,7 @@ Usage
 #include "meshFiles.H"
 #include "morphMeshControls.H"
 #include "morphMeshInput.H"
+#include "morphMeshOptimise.H"
 #include "morphMeshOutput.H"
 #include "morphVersion.H"
 #include "motionLimiter.H"
@@ -214,6 +226,16 @@ static void addOptions()
         "sensitivityFields",
         "Write dx/dmu of the whole mesh for each parameter, as fields"
     );
+    argList::addBoolOption
+    (
+        "optimise",
+        "Optimise the mesh after the motion, as system/optimiseDict says"
+    );
+    argList::addBoolOption
+    (
+        "noMotion",
+        "With -optimise: do not move the mesh"
+    );
     #include "addRegionOption.H"
 }
 
@@ -241,10 +263,18 @@ static bool morph(const argList& args)
 
     motionRecord record(mesh, morphMeshOutput::folder(mesh), !dryRun);
     PtrList<motionSolver> solvers;
-    morphMeshInput::readSolvers(mesh, solvers);
+    const bool moves = !args.found("noMotion");
+    if (moves)
+    {
+        morphMeshInput::readSolvers(mesh, solvers);
+    }
     const scalar constructTime = clock.timeIncrement();
 
-    const pointField newPoints(moved(mesh, solvers));
+    pointField newPoints(moves ? moved(mesh, solvers) : mesh.points());
+    if (args.found("optimise"))
+    {
+        newPoints = morphMeshOptimise::points(mesh, newPoints, moves);
+    }
     const scalar solveTime = clock.timeIncrement();
 
     if (args.found("lattice") || args.found("pictures"))
@@ -340,6 +370,13 @@ int main(int argc, char *argv[])
     }
     addOptions();
     #include "setRootCase.H"
+    if (args.found("noMotion") && !args.found("optimise"))
+    {
+        FatalErrorInFunction
+            << "Option -noMotion without -optimise: there is nothing to do"
+            << nl << "    Add -optimise, or leave -noMotion out" << nl
+            << exit(FatalError);
+    }
 
     bool valid = false;
     try

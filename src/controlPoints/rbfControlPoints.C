@@ -520,6 +520,63 @@ void Foam::rbfControlPoints::setDirections
 }
 
 
+Foam::labelList Foam::rbfControlPoints::prescribed() const
+{
+    DynamicList<label> points;
+    for (label i = 0; i < controlled_.size(); ++i)
+    {
+        if (!conditions_[i].slides())
+        {
+            points.append(controlled_.labels()[i]);
+        }
+    }
+    return labelList(points);
+}
+
+
+void Foam::rbfControlPoints::restrict
+(
+    const vectorField& displacement,
+    vectorField& velocity
+) const
+{
+    for (label i = 0; i < controlled_.size(); ++i)
+    {
+        const label pointi = controlled_.labels()[i];
+        const morph::ControlPoint& p = conditions_[i];
+        vector& v = velocity[pointi];
+        if (!p.slides())
+        {
+            v = Zero;
+        }
+        else if (sliding_.follows(i))
+        {
+            const morph::TangentPlanes planes =
+                sliding_.planes(i, displacement[pointi]);
+            vector first(Zero);
+            for (int j = 0; j < planes.k; ++j)
+            {
+                const morph::Vector3 column = planes.normals.col(j);
+                vector n(toFoam(column));
+                n -= (n & first)*first;
+                const scalar size = mag(n);
+                if (size > SMALL)
+                {
+                    n /= size;
+                    v -= (v & n)*n;
+                    first = n;
+                }
+            }
+        }
+        else
+        {
+            const morph::Vector3 u = toEigen(v);
+            v -= toFoam(p.C()*(p.C().transpose()*u));
+        }
+    }
+}
+
+
 void Foam::rbfControlPoints::impose
 (
     vectorField& displacement,

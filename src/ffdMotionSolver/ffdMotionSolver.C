@@ -55,7 +55,8 @@ Foam::ffdMotionSolver::ffdMotionSolver
     (
         ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
     ),
-    onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
+    onInvalidMesh_(motionLimiter::readPolicy(coeffDict())),
+    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise"))
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
@@ -75,7 +76,8 @@ Foam::ffdMotionSolver::ffdMotionSolver
     (
         ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
     ),
-    onInvalidMesh_(motionLimiter::readPolicy(coeffDict()))
+    onInvalidMesh_(motionLimiter::readPolicy(coeffDict())),
+    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise"))
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -92,7 +94,7 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
     if (found(typeName + "Coeffs"))
     {
         wordList keys(ffdBoxes::keys());
-        keys.append(wordList({"onInvalidMesh", "constraints"}));
+        keys.append(wordList({"onInvalidMesh", "constraints", "optimise"}));
         keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(coeffDict(), keys);
     }
@@ -269,6 +271,49 @@ Foam::vectorField Foam::ffdMotionSolver::displacement()
 }
 
 
+void Foam::ffdMotionSolver::optimise(vectorField& displacement)
+{
+    if (optimiseSettings_.never())
+    {
+        return;
+    }
+    if (!optimiser_.valid())
+    {
+        boolList stays(mesh().nPoints(), !zone_->wholeMesh());
+        if (!zone_->wholeMesh())
+        {
+            UIndirectList<bool>(stays, zone_->pointLabels()) = false;
+        }
+        freedom_.reset
+        (
+            new pointFreedom
+            (
+                mesh(), points0(), reduced_(), labelHashSet(),
+                findIndices(stays, true)
+            )
+        );
+        optimiser_.reset
+        (
+            new meshOptimiser
+            (
+                mesh(), optimiseSettings_, points0(), reduced_()
+            )
+        );
+    }
+    const planarReduction& plane = reduced_->plane();
+    vectorField inPlane(displacement);
+    forAll(inPlane, pointi)
+    {
+        inPlane[pointi] = plane.reduce(points0()[pointi], inPlane[pointi]);
+    }
+    if (optimiser_->improve(freedom_(), points0(), inPlane))
+    {
+        displacement = reduced_->expand(inPlane);
+        zone_->restrict(displacement);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::tmp<Foam::pointField> Foam::ffdMotionSolver::curPoints() const
@@ -298,6 +343,7 @@ void Foam::ffdMotionSolver::solve()
     {
         warnOfCutPatches();
     }
+    optimise(d);
     motionLimiter(mesh(), coeffDict(), onInvalidMesh_).apply
     (
         points0(),
@@ -313,6 +359,8 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 {
     displacementMotionSolver::updateMesh(map);
 
+    optimiser_.clear();
+    freedom_.clear();
     reduced_.clear();
     symmetry_.clear();
     zone_.reset(new motionZone(*this, coeffDict(), mesh()));

@@ -42,6 +42,7 @@ Foam::rbfMotionProblem::rbfMotionProblem
     points0_(points0),
     settings_(settings),
     zone_(zone),
+    slidingPatches_(slidingPatchesOf(groups)),
     reduced_(mesh, points0),
     inZone_(regionsInZone()),
     images_(mesh, dict, points0, reduced_.plane(), groups, settings.images),
@@ -70,6 +71,23 @@ Foam::boolList Foam::rbfMotionProblem::regionsInZone() const
     }
     foamCompat::allCombineList(inZone, orEqOp<bool>());
     return inZone;
+}
+
+
+Foam::labelHashSet Foam::rbfMotionProblem::slidingPatchesOf
+(
+    const controlPointGroups& groups
+)
+{
+    labelHashSet patches;
+    for (const controlPointGroup& group : groups)
+    {
+        if (group.slides())
+        {
+            patches.insert(group.patches());
+        }
+    }
+    return patches;
 }
 
 
@@ -124,6 +142,18 @@ void Foam::rbfMotionProblem::updateCorrection()
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::labelList Foam::rbfMotionProblem::staying() const
+{
+    if (zone_.wholeMesh())
+    {
+        return labelList();
+    }
+    boolList stays(mesh_.nPoints(), true);
+    UIndirectList<bool>(stays, zone_.pointLabels()) = false;
+    return findIndices(stays, true);
+}
+
 
 Foam::scalar Foam::rbfMotionProblem::correctionRadius
 (

@@ -250,7 +250,10 @@ void Foam::rbfMotionSettings::check
     dictionaryChecks::checkValues(dict, keys);
     if (!amongOthers)
     {
-        keys.append(wordList({"controlPoints", "greedy", "frozenPointsZone"}));
+        keys.append
+        (
+            wordList({"controlPoints", "greedy", "frozenPointsZone", "optimise"})
+        );
         keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(dict, keys);
     }
@@ -327,6 +330,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
             << "    Give at most " << mostSubSteps << ", or auto" << nl
             << exit(FatalIOError);
     }
+    settings.optimise = optimiseSettings::readFrom(dict, "optimise");
     return settings;
 }
 

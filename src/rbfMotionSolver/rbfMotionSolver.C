@@ -203,6 +203,35 @@ Foam::rbfMotion Foam::rbfMotionSolver::move()
 }
 
 
+void Foam::rbfMotionSolver::optimise(rbfMotion& motion)
+{
+    if (settings_.optimise.never())
+    {
+        return;
+    }
+    if (!optimised_.valid())
+    {
+        optimised_.reset(new optimisedMotion(problem_(), points0()));
+    }
+    if (motion.complete())
+    {
+        optimised_->improve(motion);
+    }
+    else if (motion.nSteps == 1)
+    {
+        optimised_->untangle(motion, motion.increment);
+    }
+    else
+    {
+        const rbfMotion whole
+        (
+            subSteppedMotion(problem_()).move(motion.nSteps, false)
+        );
+        optimised_->untangle(motion, whole.inPlane);
+    }
+}
+
+
 void Foam::rbfMotionSolver::limit(rbfMotion& motion)
 {
     if (motion.complete())
@@ -270,6 +299,7 @@ try
     {
         rbfMotion motion(move());
         report_.write(problem_(), motion);
+        optimise(motion);
         limit(motion);
         motion.times += times;
         report(motion);
@@ -326,6 +356,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
 
     selections_.clear();
     state_.clearPositions();
+    optimised_.clear();
     oneStep_.clear();
     problem_.clear();
     report_.clear();

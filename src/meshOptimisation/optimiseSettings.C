@@ -1,0 +1,152 @@
+/*---------------------------------------------------------------------------*\
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "optimiseSettings.H"
+#include "dictionaryChecks.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::optimiseSettings::trigger>
+Foam::optimiseSettings::triggerNames
+({
+    { trigger::never, "never" },
+    { trigger::needed, "needed" },
+    { trigger::always, "always" }
+});
+
+const Foam::Enum<morph::SimplexTarget> Foam::optimiseSettings::targetNames
+({
+    { morph::SimplexTarget::reference, "reference" },
+    { morph::SimplexTarget::orthogonal, "orthogonal" }
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- A number between bounds
+static scalar getBetween
+(
+    const dictionary& dict,
+    const word& key,
+    const scalar otherwise,
+    const scalar least,
+    const scalar most
+)
+{
+    const scalar value = dict.getOrDefault<scalar>(key, otherwise);
+    if (!(value >= least && value <= most))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value << nl
+            << "    Use a number from " << least << " to " << most << nl
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+static label getCount
+(
+    const dictionary& dict,
+    const word& key,
+    const label otherwise,
+    const label least,
+    const label most
+)
+{
+    const label value = dict.getOrDefault<label>(key, otherwise);
+    if (value < least || value > most)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value << nl
+            << "    Use a whole number from " << least << " to " << most << nl
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+static label getLayers(const dictionary& dict)
+{
+    if (!dict.found("layers"))
+    {
+        return -1;
+    }
+    const token first(dict.lookup("layers"));
+    if (first.isWord() && first.wordToken() == "all")
+    {
+        return -1;
+    }
+    if (!first.isLabel() || first.labelToken() < 1)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'layers' is neither all nor a number of layers" << nl
+            << "    Use all, or a whole number from 1" << nl
+            << exit(FatalIOError);
+    }
+    return first.labelToken();
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::optimiseSettings Foam::optimiseSettings::readFrom
+(
+    const dictionary& coeffs,
+    const word& key
+)
+{
+    return
+        coeffs.found(key) ? read(coeffs.subDict(key)) : optimiseSettings();
+}
+
+
+Foam::optimiseSettings Foam::optimiseSettings::read(const dictionary& dict)
+{
+    dictionaryChecks::onlyKeys
+    (
+        dict,
+        {
+            "when", "target", "power", "sizeWeight", "iterations", "layers"
+        },
+        {"limits"}
+    );
+    optimiseSettings s;
+    s.when = dictionaryChecks::getChoice
+    (
+        dict, "when", triggerNames, trigger::needed
+    );
+    s.target = dictionaryChecks::getChoice
+    (
+        dict, "target", targetNames, s.target
+    );
+    s.power = getCount(dict, "power", s.power, 1, 16);
+    s.sizeWeight = getBetween(dict, "sizeWeight", s.sizeWeight, 0, 1e3);
+    s.iterations = getCount(dict, "iterations", s.iterations, 1, 1000000);
+    s.layers = getLayers(dict);
+    if (dict.found("limits"))
+    {
+        const dictionary& limits = dict.subDict("limits");
+        dictionaryChecks::onlyKeys
+        (
+            limits, {"nonOrthogonality", "skewness", "determinant"}, {}
+        );
+        s.nonOrthogonality = getBetween
+        (
+            limits, "nonOrthogonality", s.nonOrthogonality, 1, 180
+        );
+        s.skewness = getBetween(limits, "skewness", s.skewness, 1e-3, GREAT);
+        s.determinant = getBetween(limits, "determinant", s.determinant, 0, 1);
+    }
+    return s;
+}
+
+
+// ************************************************************************* //
