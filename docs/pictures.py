@@ -20,6 +20,7 @@ GREATEST = 150_000  # bytes
 # Where a tutorial's pictures do not come from its Allrun alone
 COMMANDS = {
     "airFoil2D": "Allrun.angles -motions rbf",
+    "bulb": "Allrun; Allrun.descent",
 }
 
 # (name, tutorial, pictures of its results, width): side by side, or flat ones
@@ -42,6 +43,8 @@ PICTURES = [
     ),
     ("bulb.lattice", "bulb", ["bulb.before"], 700),
     ("bulb.mesh", "bulb", ["mesh.before", "mesh.after"], 900),
+    ("bulb.pressure", "bulb", ["pressure.before", "pressure.after"], 900),
+    ("bulb.descent", "bulb", ["history", "importance"], 1000),
     ("ffd2D.boxes", "ffd2D", ["inside", "boundary", "rotated"], 900),
     (
         "ffdEllipsoid.lattice",
@@ -142,11 +145,12 @@ def main():
             for _, _, names, _ in mine
             for name in names
         ):
-            command = COMMANDS.get(tutorial, "Allrun").split()
-            subprocess.run(
-                [ROOT / "tutorials" / tutorial / command[0], *command[1:]],
-                check=True,
-            )
+            for words in COMMANDS.get(tutorial, "Allrun").split(";"):
+                command, *options = words.split()
+                subprocess.run(
+                    [ROOT / "tutorials" / tutorial / command, *options],
+                    check=True,
+                )
         for output, _, names, width in mine:
             parts = [
                 trimmed(Image.open(results / f"{name}.png").convert("RGB"))

@@ -224,6 +224,8 @@ def write_optima(study, strategy, found):
             **row["outcome"].parameters,
             **row["outcome"].responses,
             "missed": row["result"].missed,
+            "runs": row["runs"],
+            "failed": row["failed"],
             "why": row["result"].why,
         }
         for row in sorted(found, key=better)

@@ -199,7 +199,7 @@ def reached(study, folder, count, names):
         "gain": study.descend.sense * (value - first) / (abs(first) or 1.0),
         "part": 1.0,
         "missed": float(best["missed"]),
-        "runs": int(history[-1]["runs"]),
+        "runs": int(best["runs"]),
         "which": " ".join(names),
     }
 

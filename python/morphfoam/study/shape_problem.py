@@ -158,7 +158,10 @@ class ShapeProblem(sqp.Problem):
 
         with sweep.only_one(self.study):
             sweep.keep_up(
-                self.study, self.strategy, [d.number for d in chosen]
+                self.study,
+                self.strategy,
+                [d.number for d in chosen],
+                note=False,
             )
             if not all(read()):
                 sweep.complete(
@@ -167,6 +170,7 @@ class ShapeProblem(sqp.Problem):
                     chosen,
                     self.cores,
                     self.profile,
+                    note=False,
                 )
         found = read()
         for design, outcome in zip(chosen, found):

@@ -135,10 +135,10 @@ def forget_baseline(study):
     )
 
 
-def keep_up(study, strategy, numbers):
+def keep_up(study, strategy, numbers, note=True):
     """Stop where finished designs were made in another way than the study file
     says now, or from another baseline; read responses again where only those
-    have changed."""
+    have changed. note: say where the template has changed."""
     baseline = outcomes.read(study, outcomes.BASELINE)
     found = [outcomes.read(study, strategy, n) for n in numbers]
     if study.strategies[strategy].start != "template":
@@ -167,7 +167,8 @@ def keep_up(study, strategy, numbers):
             )
         if outcome.response_texts != outcomes.response_texts(study):
             read_again(study, outcome)
-    note_template(study, found)
+    if note:
+        note_template(study, found)
 
 
 def note_template(study, found):
@@ -295,9 +296,9 @@ def prepared(study, strategy, cores, profile):
     return strategy, cores
 
 
-def complete(study, strategy, chosen, cores, profile):
+def complete(study, strategy, chosen, cores, profile, note=True):
     """Run what is missing of these designs, and the baseline."""
-    keep_up(study, strategy, [d.number for d in chosen])
+    keep_up(study, strategy, [d.number for d in chosen], note)
     workflow = study.folder / "workflow"
     shutil.rmtree(workflow, ignore_errors=True)
     workflow.mkdir()
