@@ -16,10 +16,13 @@ VERBS = {
     "status": "what is finished, what failed and why, time left",
     "fit": "kriging of each response, leave-one-out error",
     "optimise": "Pareto front, clusters, representatives, verification",
+    "infill": "runs where the metamodels expect most; killed, say it again",
     "descend": "from the baseline to the nearest optimum; killed, say it again",
     "importance": "which parameters the descent owes its gain to",
     "report": "one HTML page",
 }
+# Those that run designs
+RUNNING = ("run", "optimise", "infill", "descend", "importance")
 
 
 def parser():
@@ -32,11 +35,11 @@ def parser():
     for verb, meaning in VERBS.items():
         one = verbs.add_parser(verb, help=meaning, description=meaning)
         one.add_argument("study", metavar="STUDYFILE")
-        if verb in ("run", "fit", "optimise", "descend", "importance"):
+        if verb in (*RUNNING, "fit"):
             one.add_argument("-strategy", help="default: the file's first")
-        if verb in ("run", "optimise", "descend", "importance", "status"):
+        if verb in (*RUNNING, "status"):
             one.add_argument("-cores", type=int, help="default: all")
-        if verb in ("run", "optimise", "descend", "importance"):
+        if verb in RUNNING:
             one.add_argument(
                 "-profile",
                 help="a profile of Snakemake, for" " Slurm and the like",
@@ -57,6 +60,19 @@ def parser():
                 metavar="ID",
                 help="make these again, those that 'failed', or the"
                 " 'baseline' and all that is made from it",
+            )
+            one.add_argument(
+                "-dryRun",
+                dest="dry_run",
+                action="store_true",
+                help="morph and check meshes, without the solver",
+            )
+        if verb == "report":
+            one.add_argument(
+                "-watch",
+                action="store_true",
+                help="write it again as designs finish, while a sweep is at"
+                " work",
             )
         if verb == "importance":
             one.add_argument(
@@ -101,7 +117,7 @@ def main():
     module = importlib.import_module("." + name, __package__)
     found = getattr(module, verb)(study, **options)
     # The others return what they made
-    return found if verb in ("run", "optimise", "descend", "importance") else 0
+    return found if verb in RUNNING else 0
 
 
 def command():

@@ -71,19 +71,34 @@ class Study:
         are; the number of those added."""
         return len(self._verb("sample"))
 
-    def run(self, strategy=None, cores=None, only=(), redo=(), profile=None):
+    def run(
+        self,
+        strategy=None,
+        cores=None,
+        only=(),
+        redo=(),
+        profile=None,
+        dry_run=False,
+    ):
         """Run what is not finished; whether every design has an outcome now.
 
         cores    of this machine; default: all
         only     numbers of designs; default: all
         redo     numbers of designs to make again; or "failed", "baseline"
         profile  of Snakemake, for a cluster
+        dry_run  morph and check meshes, without the solver
 
         >>> study.run(redo=[2])
         True
         """
         return not self._verb(
-            "sweep", self._strategy(strategy), cores, only, redo, profile
+            "sweep",
+            self._strategy(strategy),
+            cores,
+            only,
+            redo,
+            profile,
+            dry_run,
         )
 
     def outcomes(self, strategy=None):
@@ -173,6 +188,12 @@ class Study:
         return frames.read_csv(
             self._optimised(strategy, "representatives.csv"), "design"
         )
+
+    def infill(self, strategy=None, cores=None, profile=None):
+        """Run designs where the metamodels expect most, as infill of the study
+        file says; whether all have an outcome."""
+        strategy = self._strategy(strategy)
+        return not self._verb("infill", strategy, cores, profile)
 
     def descend(self, strategy=None, cores=None, profile=None):
         """Descend from the baseline (and other starts) to the nearest optimum;

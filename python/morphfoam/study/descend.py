@@ -98,10 +98,7 @@ def descend(study, strategy=None, cores=None, profile=None):
             " for example 'descend: {objective: {drag: minimise}}'"
         )
     strategy, cores = sweep.prepared(study, strategy, cores, profile)
-    if (
-        study.descend.geometry
-        and study.strategies[strategy].start == "template"
-    ):
+    if study.descend.geometry and study.strategy(strategy).start == "template":
         raise StudyError(
             f"descend/geometry runs in a copy of the baseline, and strategy"
             f" {strategy} starts from the template. Take a strategy that"

@@ -12,6 +12,7 @@ import numpy as np
 from .errors import StudyError
 
 SAMPLED, VERIFICATION = "sample", "verification"
+INFILL = "infill"
 # Points of a descent, and those that its differences are made of
 DESCENT, GRADIENT = "descent", "gradient"
 

@@ -83,28 +83,37 @@ def optimise(study, strategy=None, no_runs=False, cores=None, profile=None):
     return status
 
 
+def limits(study):
+    """The constraints of designs and of optima."""
+    return [*study.constraints, *study.optimise.constraints]
+
+
+def predict(study, found, rows):
+    """{response: prediction} at rows of points, and by how much each misses the
+    constraints."""
+    predictions = {name: model(rows) for name, model in found.items()}
+    values = {**study.values(dict(zip(study.names, rows.T))), **predictions}
+    baseline = outcomes.baseline_values(study)
+    missed = sum(
+        (c.violation(values, baseline) for c in limits(study)),
+        np.zeros(len(rows)),
+    )
+    return predictions, missed
+
+
 def front(study, found, likely):
     """NSGA-II on the metamodels, where designs are likely to succeed: points
     and objectives."""
     wanted = study.optimise
 
     def evaluate(rows):
-        predictions = {name: model(rows) for name, model in found.items()}
-        values = {
-            **study.values(dict(zip(study.names, rows.T))),
-            **predictions,
-        }
-        violation = sum(
-            (c.violation(values, baseline) for c in limits),
-            np.maximum(wanted.feasibility - likely(rows), 0),
-        )
+        predictions, missed = predict(study, found, rows)
+        missed = missed + np.maximum(wanted.feasibility - likely(rows), 0)
         return (
             np.stack([predictions[n] for n in wanted.objectives], axis=1),
-            violation,
+            missed,
         )
 
-    limits = [*study.constraints, *wanted.constraints]
-    baseline = outcomes.baseline_values(study)
     signs = list(wanted.objectives.values())
     try:
         points, objectives = pareto.nsga2(
@@ -118,7 +127,7 @@ def front(study, found, likely):
         )
     except pareto.Infeasible as error:
         raise StudyError(
-            best_attainable(study, found, limits, likely, error.point)
+            best_attainable(study, found, likely, error.point)
         ) from None
     if len(signs) == 1:
         best = [int(np.argmax(objectives[:, 0] * signs[0]))]
@@ -126,13 +135,13 @@ def front(study, found, likely):
     return points, objectives
 
 
-def best_attainable(study, found, limits, likely, point):
+def best_attainable(study, found, likely, point):
     """What is said where no design keeps to all constraints."""
     values = study.values(dict(zip(study.names, point)))
     values.update({n: float(m(point[None])[0]) for n, m in found.items()})
     missed = {
         c.text: float(c.violation(values, outcomes.baseline_values(study)))
-        for c in limits
+        for c in limits(study)
     }
     probability = float(likely(point[None])[0])
     missed[f"feasibility >= {study.optimise.feasibility:g}"] = max(

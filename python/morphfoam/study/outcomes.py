@@ -152,8 +152,8 @@ def recipe(study, strategy):
     }
     start = "template"
     if strategy != BASELINE:
-        made["steps"] = steps(study.strategies[strategy].steps)
-        start = made["start"] = study.strategies[strategy].start
+        made["steps"] = steps(study.strategy(strategy).steps)
+        start = made["start"] = study.strategy(strategy).start
     if start != "template" or strategy == BASELINE:
         made["baseline steps"] = steps(study.baseline_steps)
     return made

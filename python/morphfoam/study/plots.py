@@ -368,3 +368,29 @@ def strategies(tables, path):
             )
     axes[0, 0].legend(fontsize=8)
     save(figure, path)
+
+
+def convergence(residuals, histories, path):
+    """Residuals of a run, and each response, over the iterations."""
+    count = 1 + len(histories)
+    columns = min(3, count)
+    figure, axes = grid(math.ceil(count / columns), columns, 4, 2.8)
+    for axis in axes.flat[count:]:
+        axis.axis("off")
+    first = axes.flat[0]
+    for name, values in residuals.items():
+        first.plot(*zip(*values), lw=1, label=name)
+    first.set(xlabel="iteration", ylabel="initial residual")
+    if residuals:
+        first.set_yscale("log")
+        first.legend(fontsize=6, ncols=2)
+    for axis, (name, values) in zip(axes.flat[1:], histories.items()):
+        axis.plot(*zip(*values), lw=1, color=COLOURS[0])
+        late = [value for _, value in values[len(values) // 10 :]]
+        margin = 0.05 * (max(late) - min(late)) or 1e-12 + abs(late[0]) * 1e-3
+        axis.set(
+            xlabel="value",
+            ylabel=name,
+            ylim=(min(late) - margin, max(late) + margin),
+        )
+    save(figure, path)

@@ -1,81 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The morphFoam authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-"""The verb report: one HTML page with what there is so far, pictures within."""
+"""The verb report: one HTML page with what there is so far, pictures within,
+and a page for each design."""
 
-import base64
+import contextlib
 import csv
+import fcntl
 import html
 import statistics
 import tempfile
+import time
 from pathlib import Path
 
-from . import designs, failures, outcomes, plots, results
+from . import design_page, designs, failures, outcomes, plots, results
+from .page import document, image, table, text
 
-STYLE = """
-body { font: 15px/1.5 sans-serif; max-width: 70em; margin: 2em auto;
-       padding: 0 1em; color: #222; }
-h1, h2, h3 { line-height: 1.2; } h2 { margin-top: 2em; }
-table { border-collapse: collapse; font-size: 13px; margin: 1em 0; }
-th, td { padding: .2em .7em; text-align: right; border-bottom: 1px solid #ddd;
-         font-variant-numeric: tabular-nums; }
-th { border-bottom: 2px solid #888; }
-td.text { text-align: left; min-width: 18em; overflow-wrap: anywhere; }
-.wide { overflow-x: auto; } img { max-width: 100%; }
-figure { display: inline-block; margin: 0 1em 1em 0; width: 20em;
-         vertical-align: top; } figcaption { font-size: 13px; color: #555; }
-tr.failed td { background: #fdecea; }
-"""
-
-
-# Columns of words
-TEXTS = (
-    "reason",
-    "where",
-    "expression",
-    "class",
-    "the first says",
-    "note",
-    "why",
-    "which",
-)
-
-
-def text(value):
-    """A value as a reader wants it."""
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        return html.escape("" if value is None else str(value))
-    return f"{number:.5g}"
-
-
-def table(rows, columns=None):
-    """An HTML table of dictionaries."""
-    if not rows:
-        return "<p>None.</p>"
-    columns = columns or list(dict.fromkeys(k for row in rows for k in row))
-    head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
-    body = ""
-    for row in rows:
-        # A design's number is a name
-        cells = "".join(
-            f"<td>{html.escape(str(row[c]))}</td>"
-            if c == "design"
-            else "<td{}>{}</td>".format(
-                ' class="text"' if c in TEXTS else "",
-                text(row.get(c, "")),
-            )
-            for c in columns
-        )
-        failed = ' class="failed"' if row.get("status") == "failed" else ""
-        body += f"<tr{failed}>{cells}</tr>\n"
-    return f'<div class="wide"><table><tr>{head}</tr>\n{body}</table></div>'
-
-
-def image(path, alt=""):
-    data = base64.b64encode(Path(path).read_bytes()).decode()
-    return f'<img alt="{html.escape(alt)}" src="data:image/png;base64,{data}">'
+# [s] between two reports of a sweep that is watched, and so many times what one
+# takes
+PAUSE, SHARE = 10, 20
 
 
 def read_table(path):
@@ -146,12 +89,13 @@ class Report:
             f"<p>Starts from the {study.strategies[name].start}."
             f" {counts(study, rows)}</p>",
         )
+        links = self.pages(name)
         self.picture(plots.sampled, study, name)
         if failed:
             self.add(
                 "<h3>Failed</h3>",
                 table(self.classes(name)),
-                table(failed, ["design", *study.names, "reason"]),
+                table(failed, ["design", *study.names, "reason"], links),
             )
         if done:
             self.add("<h3>Responses</h3>")
@@ -160,7 +104,7 @@ class Report:
         self.optima(name, rows)
         self.descent(name)
         self.importance(name)
-        self.add("<h3>All designs</h3>", table(rows))
+        self.add("<h3>All designs</h3>", table(rows, links=links))
         self.gallery(name, done)
 
     def classes(self, name):
@@ -284,15 +228,27 @@ class Report:
         )
         self.picture(plots.strategies, tables)
 
-    def write(self):
+    def pages(self, name):
+        """{design: its page} of a strategy."""
+        study, found = self.study, {}
+        own = [outcomes.read(study, outcomes.BASELINE)] + [
+            outcomes.read(study, name, d.number) for d in designs.read(study)
+        ]
+        for outcome in own:
+            if outcome:
+                found[outcome.name] = design_page.write(study, name, outcome)
+        return found
+
+    def write(self, reload=None):
+        """reload: after so many seconds, in a browser."""
         path = self.study.folder / "report.html"
         title = html.escape(self.study.path.stem)
-        path.write_text(
-            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            f"<title>{title}</title><style>{STYLE}</style></head><body>\n"
-            + "\n".join(self.parts)
-            + "\n</body></html>\n"
+        head = (
+            f'<meta http-equiv="refresh" content="{reload}">' if reload else ""
         )
+        new = path.with_suffix(".new")
+        new.write_text(document(title, self.parts, head))
+        new.replace(path)
         return path
 
 
@@ -302,6 +258,7 @@ def counts(study, rows):
     kinds = [f"{origins.count(designs.SAMPLED)} sampled"]
     for origin, words in (
         (designs.VERIFICATION, ("verification", "verifications")),
+        (designs.INFILL, ("of infill", "of infill")),
         (designs.DESCENT, ("of descents", "of descents")),
         (designs.GRADIENT, ("for differences", "for differences")),
     ):
@@ -360,13 +317,65 @@ def means(rows, wanted):
     return {k: statistics.mean(v) for k, v in values.items() if v}
 
 
-def report(study):
+def at_work(study):
+    """Whether a sweep is, on any machine that shares the folder."""
+    lock = study.folder / ".lock"
+    if not lock.exists():
+        return False
+    with lock.open() as file, contextlib.suppress(OSError):
+        fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        return False
+    return True
+
+
+def report(study, watch=False):
+    """watch: writes it again as designs finish, until no sweep is at work; in a
+    browser it reloads itself meanwhile."""
+    if watch:
+        follow(study)
+    path = make(study)
+    print(path)
+    return path
+
+
+def make(study, reload=None):
     page = Report(study)
     page.problem()
+    if reload:
+        page.add(f"<p>{progress(study)} This page reloads itself.</p>")
     page.comparison()
     for name in study.strategies:
         if results.rows(study, name, baseline=False):
             page.strategy(name)
-    path = page.write()
-    print(path)
-    return path
+    return page.write(reload)
+
+
+def progress(study):
+    """How far the strategies are that have been begun."""
+    total = len(designs.read(study))
+    found = []
+    for name in study.strategies:
+        rows = results.rows(study, name, baseline=False)
+        if rows:
+            found.append(f"{name}: {len(rows)} of {total} designs.")
+    return " ".join(found) or "No design is finished yet."
+
+
+def follow(study):
+    """As long as a sweep is at work."""
+    written, before = 0, None
+    while at_work(study):
+        state = {
+            file: file.stat().st_mtime_ns
+            for file in (study.folder / "outcomes").rglob("*.json")
+        }
+        if state != before:
+            start = time.monotonic()
+            path = make(study, PAUSE)
+            before, written = state, written + 1
+            if written == 1:
+                print(f"{path} is written as designs finish", flush=True)
+            time.sleep((SHARE - 1) * (time.monotonic() - start))
+        time.sleep(1)
+    if not written:
+        print(f"No sweep is at work in {study.folder}", flush=True)

@@ -22,6 +22,11 @@ class ResponseError(Exception):
 
 def newest(case, pattern):
     """The file that matches, of the largest time in its path."""
+    return by_time(case, pattern)[-1]
+
+
+def by_time(case, pattern):
+    """The files that match, by the times in their paths."""
     paths = [p for p in case.glob(pattern) if p.is_file()]
     if not paths:
         raise ResponseError(f"there is no file {pattern}")
@@ -30,7 +35,21 @@ def newest(case, pattern):
         parts = path.relative_to(case).parts
         return ([float(part) for part in parts if is_time(part)], str(path))
 
-    return max(paths, key=key)
+    return sorted(paths, key=key)
+
+
+def history(case, response):
+    """All values that a response's column or regular expression finds, of all
+    times; none of other responses."""
+    if response.file is None or response.row is not None:
+        return []
+    if response.regex:
+        return text_values(newest(case, response.file), response)
+    return [
+        value
+        for path in by_time(case, response.file)
+        for _, value in table_values(path, response)
+    ]
 
 
 def columns(path):
@@ -49,7 +68,8 @@ def columns(path):
     return names, rows
 
 
-def of_table(path, response):
+def table_values(path, response):
+    """Pairs of the first column and the response's."""
     names, rows = columns(path)
     column = response.column
     if isinstance(column, str):
@@ -66,11 +86,15 @@ def of_table(path, response):
         # The first word is its name
         rows = [["0", *row[1:]] for row in rows]
     try:
-        table = [(float(row[0]), float(row[column])) for row in rows]
+        return [(float(row[0]), float(row[column])) for row in rows]
     except (IndexError, ValueError) as error:
         raise ResponseError(
             f"{path.name}, column {response.column}: {error}"
         ) from None
+
+
+def of_table(path, response):
+    table = table_values(path, response)
     if response.window is None:
         return table[-1][1]
     end = table[-1][0]
@@ -96,17 +120,21 @@ def of_derivatives(path, gradient):
         ) from None
 
 
-def of_text(path, response):
+def text_values(path, response):
     found = re.findall(
         response.regex, path.read_text(errors="replace"), re.MULTILINE
     )
     if not found:
         raise ResponseError(f"{path.name} has nothing like {response.regex}")
-    count = 1 if response.window is None else int(response.window)
     try:
-        return float(np.mean([float(v) for v in found[-count:]]))
+        return [float(v) for v in found]
     except ValueError as error:
         raise ResponseError(f"{path.name}: {error}") from None
+
+
+def of_text(path, response):
+    count = 1 if response.window is None else int(response.window)
+    return float(np.mean(text_values(path, response)[-count:]))
 
 
 def of_command(command, case, environment):

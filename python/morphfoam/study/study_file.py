@@ -3,12 +3,14 @@
 
 """Reads the study file: README.md's keys, each checked, nothing else allowed."""
 
+import itertools
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from .descend_section import read_descend
+from .infill_section import read_infill
 from .errors import StudyError
 from .expressions import Condition, Expression, RESERVED
 from .response_section import read_response
@@ -21,6 +23,8 @@ METHODS = {
     "factorial": "levels",
     "table": "file",
 }
+# NAME.dryRun is the strategy NAME without the solver
+DRY_RUN = ".dryRun"
 STARTS = ("baseline", "nearest", "template")
 # The study's own folders and columns
 TAKEN = {"baseline", "outcomes", "workflow", "template"}
@@ -132,6 +136,7 @@ class StudyFile:
         "picture",
         "fit",
         "optimise",
+        "infill",
         "descend",
     )
 
@@ -161,6 +166,7 @@ class StudyFile:
         self._read_responses(file)
         self._read_fit(file)
         self._read_optimise(file)
+        self.infill = read_infill(file, self)
         self.descend = read_descend(file, self)
 
     @property
@@ -220,9 +226,27 @@ class StudyFile:
             *(e.baseline_names for e in expressions),
             *(leaf.baseline_names for c in conditions for leaf in c.leaves),
         )
-        return self.strategies[strategy].start != "template" or bool(
+        return self.strategy(strategy).start != "template" or bool(
             asked & set(self.responses)
         )
+
+    def strategy(self, name):
+        """By its name; of a dry run, what comes before the solver."""
+        if not name.endswith(DRY_RUN):
+            return self.strategies[name]
+        whole = self.strategies[name.removesuffix(DRY_RUN)]
+        solver = self.iteration_step or whole.steps[-1].name
+        steps = list(
+            itertools.takewhile(lambda step: step.name != solver, whole.steps)
+        )
+        if not steps:
+            raise StudyError(
+                f"strategy {whole.name} has no step before {solver}, which a"
+                " dry run leaves out: there is nothing to do. Make morphing"
+                " and checking the mesh steps of their own"
+            )
+        start = "template" if whole.start == "template" else "baseline"
+        return Strategy(name, start, steps)
 
     def targets(self):
         return [

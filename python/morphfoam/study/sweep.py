@@ -29,6 +29,7 @@ from . import (
     worker,
 )
 from .errors import StudyError
+from .study_file import DRY_RUN
 
 # Where the package is, for the workers
 HOME = Path(__file__).resolve().parents[2]
@@ -141,7 +142,7 @@ def keep_up(study, strategy, numbers, note=True):
     have changed. note: say where the template has changed."""
     baseline = outcomes.read(study, outcomes.BASELINE)
     found = [outcomes.read(study, strategy, n) for n in numbers]
-    if study.strategies[strategy].start != "template":
+    if study.strategy(strategy).start != "template":
         found.append(baseline)
     found = [outcome for outcome in found if outcome]
     for outcome in found:
@@ -248,7 +249,7 @@ def plan(study, strategy, chosen, snapshot):
             ),
         }
 
-    start = study.strategies[strategy].start
+    start = study.strategy(strategy).start
     if study.needs_baseline(strategy) and not outcomes.is_done(
         outcomes.read(study, outcomes.BASELINE)
     ):
@@ -267,10 +268,26 @@ def plan(study, strategy, chosen, snapshot):
     return jobs
 
 
-def run(study, strategy=None, cores=None, only=(), redo=(), profile=None):
-    """Returns the exit status: 0 when every design has an outcome."""
+def run(
+    study,
+    strategy=None,
+    cores=None,
+    only=(),
+    redo=(),
+    profile=None,
+    dry_run=False,
+):
+    """Returns the exit status: 0 when every design has an outcome. A dry run
+    makes what comes before the solver, always anew, in folders of its own."""
     strategy, cores = prepared(study, strategy, cores, profile)
     chosen = selected(study, only)
+    if dry_run:
+        strategy += DRY_RUN
+        study.strategy(strategy)
+        redo = [
+            *(w for w in redo if w == "baseline"),
+            *(d.number for d in chosen),
+        ]
     with only_one(study):
         forget(study, strategy, chosen, redo)
         complete(study, strategy, chosen, cores, profile)

@@ -28,7 +28,7 @@ from . import (
     responses,
 )
 from .errors import StudyError
-from .study_file import Strategy, StudyFile
+from .study_file import DRY_RUN, Strategy, StudyFile
 
 
 class DesignFailed(Exception):
@@ -69,11 +69,12 @@ class Worker:
             self.parameters = dict(study.baseline)
             self.designs = []
         else:
-            self.strategy = study.strategies[strategy]
+            self.strategy = study.strategy(strategy)
             self.designs = designs.read(study)
             self.parameters = next(
                 d.parameters for d in self.designs if d.number == number
             )
+        self.dry = strategy.endswith(DRY_RUN)
         self.case = outcomes.case(study, strategy, self.number)
 
     def environment(self):
@@ -97,9 +98,10 @@ class Worker:
             try:
                 self.make_case()
                 self.run_steps()
-                reader = self.reader()
-                self.outcome.responses = reader.responses()
-                self.outcome.gradients = reader.gradients()
+                if not self.dry:
+                    reader = self.reader()
+                    self.outcome.responses = reader.responses()
+                    self.outcome.gradients = reader.gradients()
                 status, reason = outcomes.DONE, ""
             except (
                 DesignFailed,
@@ -111,7 +113,7 @@ class Worker:
             if status == outcomes.DONE:
                 break
         self.read_what_there_is()
-        if status == outcomes.DONE:
+        if status == outcomes.DONE and not self.dry:
             self.take_picture()
         self.outcome.finished = datetime.datetime.now().isoformat(
             timespec="seconds"
