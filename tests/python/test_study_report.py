@@ -8,7 +8,14 @@ Source of truth: the study's README.
 
 from test_study_optimum import computed, write
 
-from morphfoam.study import design_page, designs, outcomes, report, sweep
+from morphfoam.study import (
+    design_page,
+    designs,
+    fit,
+    outcomes,
+    report,
+    sweep,
+)
 
 
 def test_each_design_has_a_page_with_how_it_converged(tmp_path):
@@ -79,3 +86,14 @@ def test_watching_where_nothing_is_at_work_says_so(tmp_path, capsys):
     study = computed(tmp_path, "objectives: {f: minimise}")
     report.report(study, watch=True)
     assert "No sweep is at work" in capsys.readouterr().out
+
+
+def test_the_report_says_how_many_designs_succeed(tmp_path):
+    """25 designs on a grid, and one that failed far from the others."""
+    study = computed(tmp_path, "objectives: {f: minimise}")
+    (added,) = designs.add(study, [(1.0, 0.9)], designs.SAMPLED)
+    write(study, "morph", added, 1, {}, "solve: diverged")
+    fit.fit(study, "morph")
+    report.report(study)
+    page = (study.folder / "report.html").read_text()
+    assert "25 of 26 designs succeeded" in page

@@ -276,7 +276,18 @@ def counts(study, rows):
 
 def fitted_to(path):
     numbers = {r["design"] for r in read_table(path / "leaveOneOut.csv")}
-    return f"They are fitted to {len(numbers)} designs."
+    said = f"They are fitted to {len(numbers)} designs."
+    if (path / "feasibility.csv").exists():
+        rows = read_table(path / "feasibility.csv")
+        done = [r["succeeded"] == "1" for r in rows]
+        right = sum(
+            (float(r["probability"]) >= 0.5) == d for r, d in zip(rows, done)
+        )
+        said += (
+            f" {sum(done)} of {len(rows)} designs succeeded; whether one does"
+            f" is told right for {right} by the model without it."
+        )
+    return said
 
 
 def compare(study, tables):
