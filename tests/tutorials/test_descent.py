@@ -49,7 +49,7 @@ def test_a_step_lowers_the_drag_of_the_bulb(tmp_path):
 def test_the_thesis_parameters_of_the_rudder_do_what_it_says(tmp_path):
     """Table 5.3: less drag (2.993 to 2.915), more efficiency (2.559 to 3.746),
     J 0.829. Here on a coarse mesh after a few iterations; with its stations
-    counted from the leading edge on, both go the other way."""
+    counted from the leading edge on, the drag rises."""
     case = tutorial("rudder", tmp_path)
     for name, old, new in (
         ("flow/system/controlDict", "endTime             400", "endTime 160"),
