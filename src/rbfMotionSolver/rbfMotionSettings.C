@@ -244,7 +244,7 @@ void Foam::rbfMotionSettings::check
     ({
         "kernel", "polynomial", "supportRadius", "supportRadiusFactor",
         "selection", "images", "surfaceCorrection", "featureAngle",
-        "exactSliding", "onInvalidMesh", "subSteps"
+        "exactSliding", "onInvalidMesh", "reference", "subSteps"
     });
     dictionaryChecks::checkNumbers(dict);
     dictionaryChecks::checkValues(dict, keys);

@@ -40,6 +40,13 @@ namespace Foam
 namespace Foam
 {
 
+//- From which mesh a time step starts
+enum class referenceMesh
+{
+    fixed,
+    moving
+};
+
 // Most steps that 'subSteps auto' takes
 static const label maxSubSteps = 32;
 
@@ -64,7 +71,9 @@ Foam::rbfMotionSolver::rbfMotionSolver
     ),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    state_(mesh)
+    state_(mesh),
+    moving_(readMoving()),
+    formerIndex_(-1)
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
@@ -82,7 +91,9 @@ Foam::rbfMotionSolver::rbfMotionSolver
     displacementMotionSolver(mesh, dict, pointDisplacement, points0, typeName),
     settings_(rbfMotionSettings::read(checkedCoeffDict())),
     report_(mesh, settings_),
-    state_(mesh)
+    state_(mesh),
+    moving_(readMoving()),
+    formerIndex_(-1)
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -177,8 +188,80 @@ void Foam::rbfMotionSolver::prepare()
 }
 
 
+bool Foam::rbfMotionSolver::readMoving() const
+{
+    const Enum<referenceMesh> names
+    ({
+        { referenceMesh::fixed, "fixed" },
+        { referenceMesh::moving, "moving" }
+    });
+    const bool moving =
+        dictionaryChecks::getChoice
+        (
+            coeffDict(), "reference", names, referenceMesh::fixed
+        )
+     == referenceMesh::moving;
+    if (moving && coeffDict().found("subSteps"))
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "Entry 'subSteps' starts from the reference mesh at each time,"
+            << " which 'reference moving' does not" << nl
+            << "    Remove subSteps; where a step is too large, make the time"
+            << " step smaller" << nl << exit(FatalIOError);
+    }
+    return moving;
+}
+
+
+bool Foam::rbfMotionSolver::active()
+{
+    if (!moving_)
+    {
+        return oneStep_->active();
+    }
+    bool offMesh = false;
+    for (label i = 0; i < problem_->controlPoints().nRegions(); ++i)
+    {
+        offMesh =
+            offMesh
+         || problem_->controlPoints().candidates(i).meshPoints.found(-1);
+    }
+    dictionaryChecks::stopIf
+    (
+        coeffDict(),
+        offMesh
+      ? "Entry 'reference' is moving, but there are control points off the"
+        " mesh, which a restart would not find\n"
+        "    Use 'reference fixed', or points of the mesh"
+      : ""
+    );
+
+    // Outer correctors of a time step all start from the same mesh
+    if (formerIndex_ != mesh().time().timeIndex())
+    {
+        formerIndex_ = mesh().time().timeIndex();
+        const planarReduction& plane = problem_->reduced().plane();
+        former_.setSize(points0().size());
+        forAll(former_, pointi)
+        {
+            former_[pointi] =
+                plane.position(mesh().points()[pointi])
+              - plane.position(points0()[pointi]);
+        }
+    }
+    return oneStep_->active() || gMax(mag(former_)) > 0;
+}
+
+
 Foam::rbfMotion Foam::rbfMotionSolver::move()
 {
+    if (moving_)
+    {
+        return subSteppedMotion(problem_()).moveOn
+        (
+            former_, settings_.onInvalidMesh != motionLimiter::policy::ignore
+        );
+    }
     const label n = settings_.subSteps;
     const bool check =
         settings_.onInvalidMesh != motionLimiter::policy::ignore;
@@ -219,7 +302,10 @@ void Foam::rbfMotionSolver::optimise(rbfMotion& motion)
     }
     else if (motion.nSteps == 1)
     {
-        optimised_->untangle(motion, motion.increment);
+        optimised_->untangle
+        (
+            motion, vectorField(motion.inPlane + motion.increment)
+        );
     }
     else
     {
@@ -245,9 +331,21 @@ void Foam::rbfMotionSolver::limit(rbfMotion& motion)
         points0() + motion.displacement,
         problem_->expand(motion.increment)(),
         {motion.nMade/n, (motion.nMade + 1)/n, motion.nSteps},
-        problem_->remedy()
+        moving_
+      ? string
+        (
+            "Make the time step smaller, or add 'optimise {}', which untangles"
+            " the mesh"
+        )
+      : problem_->remedy()
     );
-    if (motion.nSteps == 1)
+    if (moving_)
+    {
+        motion.fraction = found.fraction;
+        motion.inPlane += found.fraction*motion.increment;
+        motion.displacement = problem_->expand(motion.inPlane);
+    }
+    else if (motion.nSteps == 1)
     {
         oneStep_->makePart(motion, found.fraction);
     }
@@ -294,7 +392,7 @@ try
     prepare();
     times.lap(motionTimes::conditions);
 
-    const bool moves = oneStep_->active();
+    const bool moves = active();
     if (moves)
     {
         rbfMotion motion(move());
@@ -355,6 +453,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     displacementMotionSolver::updateMesh(map);
 
     selections_.clear();
+    formerIndex_ = -1;
     state_.clearPositions();
     optimised_.clear();
     oneStep_.clear();

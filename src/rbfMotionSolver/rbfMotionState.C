@@ -149,7 +149,13 @@ Foam::string Foam::rbfMotionState::read(const fileName& path)
             positions_.append(pointField(SubField<point>(all, size, start)));
             start += size;
         }
-        if (fault.empty() && dict.get<string>("checksum") != checksum())
+        const string sum(dict.get<string>("checksum"));
+        if (all.empty() && sum != checksum())
+        {
+            // None of any region is written like none of one
+            positions_.clear();
+        }
+        if (fault.empty() && sum != checksum())
         {
             fault = "its checksum is that of other contents";
         }

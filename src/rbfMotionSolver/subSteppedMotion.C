@@ -70,6 +70,33 @@ Foam::subSteppedMotion::findMoving() const
 }
 
 
+std::vector<Foam::subSteppedMotion::moving>
+Foam::subSteppedMotion::findMoving(const rbfMotion& made) const
+{
+    // Also where the whole motion is none, as a body has come back
+    const scalar span = boundBox(problem_.points0(), true).mag();
+    std::vector<moving> parts;
+    for (label i = 0; i < problem_.reduced().nRegions(); ++i)
+    {
+        const controlCandidates& candidates =
+            problem_.controlPoints().candidates(i);
+        const morph::Vectors reached = reachedByCandidates(i, made);
+        scalar largest = 0;
+        for (label j = 0; j < candidates.size(); ++j)
+        {
+            const morph::Vector3 s = reached.row(j).transpose();
+            largest = max(largest, candidates.conditions[j].residual(s).norm());
+        }
+        reduce(largest, maxOp<scalar>());
+        if (problem_.radius() > 0 && largest > SMALL*span)
+        {
+            parts.push_back({i, problem_.images().inReach(largest)});
+        }
+    }
+    return parts;
+}
+
+
 void Foam::subSteppedMotion::addStep
 (
     const moving& part,
@@ -188,6 +215,32 @@ Foam::rbfMotion Foam::subSteppedMotion::move
     }
     motion.fraction = min(fraction, scalar(motion.nMade)/n);
     motion.displacement = problem_.expand(motion.inPlane);
+    return motion;
+}
+
+
+Foam::rbfMotion Foam::subSteppedMotion::moveOn
+(
+    const vectorField& inPlane,
+    const bool check
+) const
+{
+    rbfMotion motion;
+    motion.inPlane = inPlane;
+    const vectorField next(this->next(findMoving(motion), motion));
+    motion.displacement = problem_.expand(next);
+    if (!check || problem_.isValid(motion.displacement))
+    {
+        motion.inPlane = next;
+        motion.nMade = 1;
+        motion.fraction = 1;
+    }
+    else
+    {
+        motion.increment = next - inPlane;
+        motion.displacement = problem_.expand(inPlane);
+    }
+    motion.times.lap(motionTimes::meshCheck);
     return motion;
 }
 
