@@ -19,7 +19,7 @@ from pathlib import Path
 from morphfoam.output.tables import write_table
 
 here = Path(__file__).resolve().parent
-motions = ["fixed", "fixedOptimised", "moving", "movingOptimised"]
+motions = ["fixed", "moving", "movingOptimised"]
 angles = [90, 120, 150, 180, 270, 360, 450, 540, 720]
 
 
