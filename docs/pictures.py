@@ -52,13 +52,16 @@ PICTURES = [
         ["ellipsoid.before", "ellipsoid.after"],
         900,
     ),
+    ("flexiblePlate.film", "flexiblePlate", ["plate"], 900),
     ("floatingBody.film", "floatingBody", ["floating"], 900),
+    ("hingedFloats.film", "hingedFloats", ["floats"], 900),
     (
         "motorBikeSurface.lattice",
         "motorBikeSurface",
         ["motorBike.before", "motorBike.after"],
         900,
     ),
+    ("movingCone.mesh", "movingCone", ["cone"], 900),
     ("oscillatingCylinder.film", "oscillatingCylinder", ["wake"], 900),
     (
         "pistonBowl.side",

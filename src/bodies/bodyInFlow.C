@@ -61,6 +61,10 @@ Foam::bodyInFlow::bodyInFlow
             << "    To continue a run of OpenFOAM's own solver copy its file "
             << others << " to that name" << endl;
     }
+    if (!starts)
+    {
+        keepWallVelocity();
+    }
 }
 
 
@@ -114,6 +118,16 @@ void Foam::bodyInFlow::checkConditions() const
                 << " condition calculated there" << nl << exit(FatalIOError);
         }
     }
+}
+
+
+void Foam::bodyInFlow::keepWallVelocity()
+{
+    // A mesh that has read its meshPhi counts as moving, so that solvers which
+    // correct their fluxes at the start evaluate movingWallVelocity, from
+    // points that have not moved: without what walls have along themselves, and
+    // the first forces lack that friction
+    const_cast<polyMesh&>(mesh_).moving(false);
 }
 
 

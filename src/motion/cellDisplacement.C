@@ -7,6 +7,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "addToRunTimeSelectionTable.H"
 #include "cellDisplacementField.H"
 #include "dictionaryChecks.H"
+#include "functionObjectList.H"
+#include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -32,9 +34,10 @@ Foam::cellDisplacement::cellDisplacement
 )
 :
     prescribedDisplacement(dict, mesh),
-    patches_(patches)
+    patches_(patches),
+    functions_(dict.getOrDefault("functions", wordList()))
 {
-    dictionaryChecks::onlyKeys(dict, {"type"});
+    dictionaryChecks::onlyKeys(dict, {"type", "functions"});
 
     if (patches.empty())
     {
@@ -63,6 +66,34 @@ Foam::cellDisplacement::cellDisplacement
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::cellDisplacement::update()
+{
+    if (functions_.empty())
+    {
+        return;
+    }
+
+    // Time has no other way to execute one
+    auto& all =
+        const_cast<functionObjectList&>(mesh().time().functionObjects());
+    List<wordRe> names(functions_.size());
+    forAll(functions_, i)
+    {
+        names[i] = functions_[i];
+        if (all.findObjectID(functions_[i]) < 0)
+        {
+            FatalIOErrorInFunction(dict())
+                << "Entry 'functions': no function object is called '"
+                << functions_[i] << "'" << nl
+                << "    Write it into 'functions' of system/controlDict, and"
+                << " run a program that executes function objects" << nl
+                << exit(FatalIOError);
+        }
+    }
+    all.execute(names, 0);
+}
+
 
 Foam::tmp<Foam::vectorField> Foam::cellDisplacement::displacement
 (
