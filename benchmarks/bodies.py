@@ -193,9 +193,7 @@ def prepared(folder, name, motion, changes):
 def vectors(path):
     """A list or the internal field of vectors, ascii or binary."""
     data = path.read_bytes()
-    start = re.search(
-        rb"(?:nonuniform List<vector>\s*|\n)(\d+)\s*\(", data
-    )
+    start = re.search(rb"(?:nonuniform List<vector>\s*|\n)(\d+)\s*\(", data)
     n = int(start[1])
     if re.search(rb"format\s+binary", data[:1000]):
         flat = np.frombuffer(data, float, 3 * n, start.end())

@@ -113,11 +113,11 @@ class QuasiNewton:
         columns = np.array(self.dr).T
         scale = np.linalg.norm(columns, axis=0)
         keep = scale > 1e-13 * max(scale.max(), 1e-300)
-        c, *_ = np.linalg.lstsq(
-            columns[:, keep] / scale[keep], -r, rcond=1e-8
-        )
-        return x + r + (np.array(self.dx).T + columns)[:, keep] @ (
-            c / scale[keep]
+        c, *_ = np.linalg.lstsq(columns[:, keep] / scale[keep], -r, rcond=1e-8)
+        return (
+            x
+            + r
+            + (np.array(self.dx).T + columns)[:, keep] @ (c / scale[keep])
         )
 
     def next_step(self):

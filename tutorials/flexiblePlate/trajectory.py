@@ -110,9 +110,7 @@ def main():
     ]
     if (here / "runs/restarted/plate/history.csv").exists():
         again = history("restarted")
-        _, i, j = np.intersect1d(
-            whole[:, 0], again[:, 0], return_indices=True
-        )
+        _, i, j = np.intersect1d(whole[:, 0], again[:, 0], return_indices=True)
         rows.append(
             {
                 "figure": "restarted on two ranks, largest difference of the "
