@@ -27,6 +27,7 @@ DICTIONARIES = [
             "controlPointGroups",
             "motionLimiter",
             "motionZone",
+            "rigidMotion",
         ],
     ),
     ("A group of controlPoints", "controlPointGroup", []),
@@ -132,6 +133,7 @@ READ_BY_OPENFOAM = {
 
 # Likewise single entries, as (source, entry)
 NOT_AN_ENTRY = {
+    ("rigidMotion", "diffusivity"): "of OpenFOAM's solvers that deform",
     ("sixDoFRigidBody", "deltaT"): "in the file that a restart reads",
     ("controlPointGroup", "n"): "written by OpenFOAM's own condition",
     ("ffdFit", "boxes"): "the boxes of the dictionary",

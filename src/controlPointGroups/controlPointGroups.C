@@ -11,6 +11,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "otherSolvers.H"
 #include "pointDisplacementField.H"
 #include "pointFields.H"
+#include "rigidMotion.H"
 #include "velocityFields.H"
 #include "zeroGradientPointPatchField.H"
 
@@ -38,13 +39,15 @@ Foam::controlPointGroups::controlPointGroups
     const dictionary& dict,
     const dictionary& coeffs,
     const word& solver,
-    const pointVectorField& pointDisplacement
+    const pointVectorField& pointDisplacement,
+    const rigidMotion* rigid
 )
 :
     mesh_(mesh),
     dict_(dict),
     solver_(solver),
     pointDisplacement_(pointDisplacement),
+    rigid_(rigid),
     constraints_(constraintPatches::slidingSurfaces(mesh))
 {
     freeze(coeffs);
@@ -242,7 +245,7 @@ void Foam::controlPointGroups::checkThatSomethingMoves
         moves = moves || group.moves() || group.hasTarget();
         may = may || group.mayMove();
     }
-    if (moves)
+    if (moves || rigid_)
     {
         return;
     }
@@ -276,13 +279,19 @@ void Foam::controlPointGroups::checkThatSomethingMoves
 }
 
 
+Foam::string Foam::controlPointGroups::leftovers(bool& tells) const
+{
+    return otherSolvers::leftovers
+    (
+        dict_, solver_, rigid_ ? rigid_->entry() : word::null, tells
+    );
+}
+
+
 Foam::string Foam::controlPointGroups::others() const
 {
     bool tells = false;
-    const string lines
-    (
-        otherSolvers::leftovers(dict_, solver_, tells)
-    );
+    const string lines(leftovers(tells));
     string text(velocityFields::asGroups(mesh_));
     if (lines.size())
     {
@@ -309,12 +318,25 @@ bool Foam::controlPointGroups::fromField() const
 }
 
 
+bool Foam::controlPointGroups::mayMove() const
+{
+    for (const controlPointGroup& group : *this)
+    {
+        if (group.mayMove())
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+
 void Foam::controlPointGroups::report(const bool moves) const
 {
     const fileName file(mesh_.time().relativePath(dict_.name()));
     bool tells = false;
-    const string left(otherSolvers::leftovers(dict_, solver_, tells));
-    if (moves && tells)
+    const string left(leftovers(tells));
+    if ((moves || rigid_) && tells)
     {
         IOWarningInFunction(dict_)
             << solver_ << " does not read what " << file.c_str()
@@ -322,12 +344,12 @@ void Foam::controlPointGroups::report(const bool moves) const
             << left.c_str()
             << "    Remove it, or write what does the same here" << endl;
     }
-    else if (moves && left.size())
+    else if ((moves || rigid_) && left.size())
     {
         Info<< solver_ << " does not read what " << file.c_str()
             << " has for other motion solvers:" << nl << left.c_str() << flush;
     }
-    if (moves)
+    if (moves || rigid_)
     {
         return;
     }

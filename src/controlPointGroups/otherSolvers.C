@@ -50,6 +50,12 @@ static string counterpart(const word& name)
             "layers are neither moved nor added; points that are to stay are"
             " a group of type fixed";
     }
+    if (name == "code" || name == "codedCoeffs")
+    {
+        return
+            "a coded motion keeps its solver; on patches a codedFixedValue"
+            " condition of pointDisplacement prescribes it";
+    }
     if (has("elocity") || has("omponent"))
     {
         return
@@ -68,7 +74,7 @@ static bool othersEntry(const word& name)
 {
     static const HashSet<word> names
     ({
-        "bodies", "component", "diffusivity", "interpolation", "regions",
+        "bodies", "code", "component", "diffusivity", "interpolation", "regions",
         "solidBodyMotionFunction"
     });
     return names.found(name);
@@ -179,6 +185,7 @@ Foam::string Foam::otherSolvers::leftovers
 (
     const dictionary& dict,
     const word& own,
+    const word& heard,
     bool& tells
 )
 {
@@ -191,7 +198,7 @@ Foam::string Foam::otherSolvers::leftovers
             name.ends_with(coeffs) && e.isDict()
          && name != own + coeffs
          && name != chosen(dict, "dynamicFvMesh") + coeffs;
-        if (!others && !othersEntry(name))
+        if (name == heard || (!others && !othersEntry(name)))
         {
             continue;
         }

@@ -66,8 +66,11 @@ static void checkTokens(const dictionary& dict, const entry& e)
         {
             wrongNumber(dict, e, t.number());
         }
-        // Within brackets it is the first of a pair: (37 (0 0 1))
-        const bool pair = i > 0 && tokens[i - 1] == token::BEGIN_LIST;
+        // Within brackets it is the first of a pair, (37 (0 0 1)), and after
+        // another number it does not count either: arc 30 31 (0 0 1)
+        const bool pair =
+            i > 0
+         && (tokens[i - 1] == token::BEGIN_LIST || tokens[i - 1].isNumber());
         if (!t.isLabel() || i + 1 == tokens.size() || pair)
         {
             continue;

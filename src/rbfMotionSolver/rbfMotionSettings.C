@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "rbfMotionSettings.H"
 #include "dictionaryChecks.H"
 #include "motionZone.H"
+#include "rigidMotion.H"
 #include "DynamicList.H"
 #include "unitConversion.H"
 
@@ -255,6 +256,7 @@ void Foam::rbfMotionSettings::check
             wordList({"controlPoints", "greedy", "frozenPointsZone", "optimise"})
         );
         keys.append(motionZone::keys());
+        keys.append(rigidMotion::keys(dict));
         dictionaryChecks::onlyKeys(dict, keys);
     }
 }

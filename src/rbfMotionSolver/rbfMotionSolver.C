@@ -133,20 +133,44 @@ void Foam::rbfMotionSolver::initialise()
     cellDisplacement_ =
         cellDisplacementField::New(mesh(), points0(), pointDisplacement_);
     makeGroups();
-    state_.require(coeffDict());
+    if (deforms())
+    {
+        state_.require(coeffDict());
+    }
 }
 
 
 void Foam::rbfMotionSolver::makeGroups()
 {
-    zone_.reset(new motionZone(*this, coeffDict(), mesh()));
+    groups_.clear();
+    rigid_ = rigidMotion::New(*this, coeffDict(), mesh());
+    const bool whole = !rigid_.valid() || rigid_->byZones();
+    zone_.reset
+    (
+        new motionZone(*this, whole ? coeffDict() : rigid_->zoned(), mesh())
+    );
     groups_.reset
     (
         new controlPointGroups
         (
-            mesh(), *this, coeffDict(), typeName, pointDisplacement_
+            mesh(),
+            *this,
+            coeffDict(),
+            typeName,
+            pointDisplacement_,
+            rigid_.valid() ? &rigid_() : nullptr
         )
     );
+    if (rigid_.valid())
+    {
+        rigid_->report();
+    }
+}
+
+
+bool Foam::rbfMotionSolver::deforms() const
+{
+    return !rigid_.valid() || (!rigid_->alone() && groups_->mayMove());
 }
 
 
@@ -377,16 +401,31 @@ void Foam::rbfMotionSolver::report(const rbfMotion& motion)
 
 Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
 {
-    return zone_->moved
+    const vectorField& displacement = pointDisplacement_.primitiveField();
+    if (!rigid_.valid())
+    {
+        return zone_->moved(points0(), displacement, mesh().points());
+    }
+    if (!deforms())
+    {
+        return rigid_->moved(points0(), mesh().points());
+    }
+    const bool whole = zone_->wholeMesh();
+    tmp<pointField> rigid
     (
-        points0(), pointDisplacement_.primitiveField(), mesh().points()
+        rigid_->moved(points0(), whole ? points0() : mesh().points())
     );
+    return zone_->moved(rigid(), displacement, mesh().points());
 }
 
 
 void Foam::rbfMotionSolver::solve()
 try
 {
+    if (!deforms())
+    {
+        return;
+    }
     motionTimes times;
     const bool first = !problem_.valid();
     prepare();

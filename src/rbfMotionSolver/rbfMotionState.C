@@ -283,7 +283,7 @@ bool Foam::rbfMotionState::writeData(Ostream& os) const
     {
         sizes[i] = positions_[i].size();
     }
-    if (sizes.size() > 1)
+    if (sizes.size() != 1)
     {
         os.writeEntry("regionSizes", sizes);
     }

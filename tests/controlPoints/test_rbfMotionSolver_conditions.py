@@ -264,3 +264,22 @@ def test_fixedNormalSlip_keeps_points_in_the_plane_of_its_own_normal(tmp_path):
     )
     middle = on & (before[:, 2] == 0.75)
     assert (after[middle, 2] > before[middle, 2] + 0.01).all()
+
+
+def test_what_a_field_includes_beside_its_conditions_does_not_matter(tmp_path):
+    # As OpenFOAM's sphereDrop does for its macros: arcs of a blockMeshDict
+    conditions = {**SLIPPING, "zMax": fixed(0, 0, 0.1)}
+    case = rbf_case(tmp_path, conditions)
+    field = tmp_path / "0/pointDisplacement"
+    text = field.read_text()
+    field.write_text(
+        text.replace(
+            "dimensions",
+            "edges ( arc 30 31 (0.1 0.2 0.3) arc 1 40000000 (1 2 3) );"
+            " dimensions",
+            1,
+        )
+    )
+    before = reference(case)
+    top = side(before, "zMax")
+    np.testing.assert_array_equal(move(case)[top], before[top] + [0, 0, 0.1])
