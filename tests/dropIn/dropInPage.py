@@ -227,18 +227,26 @@ def page(results):
 
 START = """# OpenFOAM's own tutorials
 
-Every tutorial of OpenFOAM v1912 that moves a mesh, made small, run as it is and with `rbfMotionSolver`: `tests/dropIn/Allrun`
-writes this page. Cases whose mesh flow moves, and overset ones, run their own solver; the others `moveDynamicMesh`.
+Every tutorial of OpenFOAM v1912 that moves a mesh, made small, run as it is
+and with `rbfMotionSolver`: `tests/dropIn/Allrun` writes this page. Cases
+whose mesh flow moves, and overset ones, run their own solver; the others
+`moveDynamicMesh`.
 
-- *largest difference*: of points whose motion the case prescribes, over the largest displacement, at the times written
-- *moved, rested*: points that rest in the original (prescribed, or in a part of the mesh that rests) and move here
+- *largest difference*: of points whose motion the case prescribes, over the
+  largest displacement, at the times written
+- *moved, rested*: points that rest in the original (prescribed, or in a part
+  of the mesh that rests) and move here
 - *non-orthogonality*, *skewness*: the largest at the end, original → here
-- *CPU*: of the motion solver in a step, median after the first step, the smaller of two runs that take turns; *whole run*: the
-  ratio of the CPU times of whole runs, first step and flow included"""
+- *CPU*: of the motion solver in a step, median after the first step, the
+  smaller of two runs that take turns; *whole run*: the ratio of the CPU times
+  of whole runs, first step and flow included"""
 
-CHANGES = """What stands in `rbfMotionSolverCoeffs` is what the message of the run with two lines prints or describes: velocities and
-components of the displacement become groups of control points, and a body that floats becomes a group with the displacement
-`sixDoFRigidBody`, beside the patches that stay. There flow moves the body, in either run its own."""
+CHANGES = """What stands in `rbfMotionSolverCoeffs` is what the message of the run with two
+lines prints or describes: velocities and components of the displacement
+become groups of control points, and a body that floats becomes a group with
+the displacement `sixDoFRigidBody`, beside the patches that stay. There flow
+moves the body, in either run its own."""
 
-LIMITS = """The message says so. Beside these there are {n} tutorials of `adjointOptimisationFoam`: its control points are what it
-optimises, and it selects among solvers of its own."""
+LIMITS = """The message says so. Beside these there are {n} tutorials of
+`adjointOptimisationFoam`: its control points are what it optimises, and it
+selects among solvers of its own."""

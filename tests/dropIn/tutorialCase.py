@@ -5,7 +5,6 @@
 points are, what its motion costs.
 """
 
-import os
 import pathlib
 import re
 import resource
