@@ -173,6 +173,9 @@ def try_out(tutorial, source, folder):
         result["outcome"] = "same"
         return result
     said = two.get("message") or "\n".join(two["warnings"])
+    if not original.good and said == original.message:
+        result["outcome"] = "not run"
+        return result
     if not said:
         result["outcome"] = "silent" if original.good else "not run"
         return result

@@ -139,7 +139,9 @@ def said(result):
     if result.get("reason") and not (
         two.get("message") and result["outcome"] == "limit"
     ):
-        text = result["reason"]
+        text = result["reason"].strip()
+        if text.startswith("Traceback"):
+            text = text.splitlines()[-1]
     lines = [line.strip() for line in text.strip().splitlines()]
     if result["outcome"] == "limit" and result.get("limit"):
         lines = [line for line in lines if result["limit"] in line]
