@@ -46,9 +46,9 @@ def write(path, class_name, body):
     )
 
 
-def run(case, *command):
+def run(case, *command, check=True):
     out = subprocess.run(
-        [*command], cwd=case, stdout=subprocess.PIPE, text=True, check=True
+        [*command], cwd=case, stdout=subprocess.PIPE, text=True, check=check
     )
     return out.stdout
 
@@ -143,7 +143,8 @@ def reach(folder, angle, optimised):
         "onInvalidMesh ignore;"
         + ("optimise { when always; iterations 600; }" if optimised else "")
     )
-    out = run(folder, "morphMesh", "-dryRun", "-time", str(angle))
+    command = ("morphMesh", "-dryRun", "-time", str(angle))
+    out = run(folder, *command, check=False)
     row = re.search(r"^after.*", out, re.MULTILINE)[0].split()
     return "folded" if float(row[6]) else f"{float(row[3]):.1f}"
 
