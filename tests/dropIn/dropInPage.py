@@ -142,6 +142,8 @@ def said(result):
         text = result["reason"].strip()
         if text.startswith("Traceback"):
             text = text.splitlines()[-1]
+            if "TimeoutExpired" in text:
+                text = "not within the time limit on the machine of this run"
     lines = [line.strip() for line in text.strip().splitlines()]
     if result["outcome"] == "limit" and result.get("limit"):
         lines = [line for line in lines if result["limit"] in line]
