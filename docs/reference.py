@@ -92,6 +92,7 @@ DICTIONARIES = [
         ["shapeConstraint", "shapeConstraints"],
     ),
     ("optimise, and system/optimiseDict", "optimiseSettings", []),
+    ("keep: what stays as it is", "ffdCorrection", []),
     ("Function object motionControls", "motionControls", []),
     ("Function object catalyst", "catalystFunctionObject", []),
     (
@@ -141,6 +142,8 @@ NOT_AN_ENTRY = {
     ("ffdFit", "span"): "an entry of the box",
     ("ffdFit", "rotation"): "an entry of the box",
     ("ffdFit", "type"): "an entry of the box",
+    ("ffdCorrection", "min"): "refused: a number to keep has no bounds",
+    ("ffdCorrection", "max"): "refused: a number to keep has no bounds",
     ("ffdBulk", "s"): "a direction",
     ("ffdBulk", "t"): "a direction",
     ("ffdBulk", "p"): "a direction",

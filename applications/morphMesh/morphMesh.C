@@ -44,19 +44,19 @@ Usage
         at its bounds, preview.png in that folder.
 
       - \par -derivatives \<patches\>
-        For ffdMotionSolver: area, volume and centroid of patches, for example
-        '(hull)', with their derivatives by each parameter, and dx/dmu at the
-        points of the patches: measures.dat, derivatives.dat and
-        derivatives.vtp beside quality.dat. Also with -dryRun.
+        Of a motion that has parameters, those of lattices or the numbers of
+        displacements (rbfSensitivities.H): area, volume and centroid of
+        patches, for example '(hull)', with their derivatives by each parameter,
+        and dx/dmu at the points of the patches: measures.dat, derivatives.dat
+        and derivatives.vtp beside quality.dat. Also with -dryRun.
 
       - \par -constraints
-        For ffdMotionSolver: the dictionary \c constraints of its coefficients
+        Of such a motion: the dictionary \c constraints of its coefficients
         (shapeConstraint.H), on the patches that each names: constraints.dat and
         constraintDerivatives.dat beside quality.dat. Also with -dryRun.
 
       - \par -sensitivityFields
-        Of a motion solver whose motion has parameters: dx/dmu of the whole mesh
-        by each, as pointVectorField d_\<parameter\> in the folder of the time.
+        Of such a motion: dx/dmu of the whole mesh by each parameter, as pointVectorField d_\<parameter\> in the folder of the time.
         Not with -dryRun.
 
       - \par -optimise

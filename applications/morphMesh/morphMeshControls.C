@@ -6,9 +6,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "morphMeshControls.H"
 #include "controlGeometry.H"
 #include "dictionaryEntries.H"
+#include "displacementMotionSolver.H"
 #include "emptyPolyPatch.H"
+#include "ffdCorrection.H"
 #include "ffdFit.H"
-#include "ffdMeasures.H"
 #include "ffdMotionSolver.H"
 #include "ffdPreview.H"
 #include "foamCompat.H"
@@ -18,6 +19,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "plainText.H"
 #include "pointFields.H"
 #include "shapeConstraints.H"
+#include "shapeMeasures.H"
 #include "wholeFile.H"
 
 #include <limits>
@@ -105,8 +107,82 @@ static autoPtr<ffdBoxes> boxesOf(const fvMesh& mesh, const motionSolver& solver)
         )
     );
     boxes->setPoints(ffd->points0(), mesh.edges());
+    if (boxes->keeps())
+    {
+        boxes->setKept
+        (
+            ffd->points0(), ffdCorrection::faces(boxes->keep(), mesh)
+        );
+    }
     boxes->update(mesh.time().timeOutputValue());
     return boxes;
+}
+
+//- A solver whose motion has parameters
+struct parametricMotion
+{
+    const displacementMotionSolver& solver;
+
+    motionSensitivities& sensitivities;
+
+    List<motionParameter> parameters;
+
+    const pointField& points0() const
+    {
+        return solver.points0();
+    }
+
+    tmp<pointField> moved() const
+    {
+        return points0() + solver.pointDisplacement().primitiveField();
+    }
+
+    wordList names() const
+    {
+        wordList names(parameters.size());
+        forAll(names, i)
+        {
+            names[i] = parameters[i].name;
+        }
+        return names;
+    }
+
+    std::function<tmp<vectorField>(const label)> derivative() const
+    {
+        return [this](const label i) { return sensitivities.sensitivity(i); };
+    }
+};
+
+
+//- Those with parameters, or a warning where there are none
+static std::vector<parametricMotion> parametric
+(
+    PtrList<motionSolver>& solvers,
+    const char* option
+)
+{
+    std::vector<parametricMotion> found;
+    for (motionSolver& solver : solvers)
+    {
+        auto* sensitivities = dynamic_cast<motionSensitivities*>(&solver);
+        const auto* moving = isA<displacementMotionSolver>(solver);
+        if (sensitivities && moving)
+        {
+            const List<motionParameter> list(sensitivities->parameters());
+            if (list.size())
+            {
+                found.push_back({*moving, *sensitivities, list});
+            }
+        }
+    }
+    if (found.empty())
+    {
+        WarningInFunction
+            << "The motion solver has no parameters: option " << option
+            << " is for ffdMotionSolver, and for rbfMotionSolver with"
+            << " displacements that have numbers" << endl;
+    }
+    return found;
 }
 
 } // End namespace morphMeshControls
@@ -163,7 +239,7 @@ void Foam::morphMeshControls::write
 void Foam::morphMeshControls::writeDerivatives
 (
     const fvMesh& mesh,
-    const PtrList<motionSolver>& solvers,
+    PtrList<motionSolver>& solvers,
     const wordRes& patches,
     const fileName& folder
 )
@@ -172,17 +248,17 @@ void Foam::morphMeshControls::writeDerivatives
     (
         facesOf(mesh, selectedPatches(mesh, patches, "Option -derivatives"))
     );
-    bool some = false;
-    for (const motionSolver& solver : solvers)
+    for (const parametricMotion& motion : parametric(solvers, "-derivatives"))
     {
-        autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
-        if (!boxes.valid())
-        {
-            continue;
-        }
-        some = true;
-        const auto& ffd = refCast<const ffdMotionSolver>(solver);
-        const ffdMeasures measures(boxes(), ffd.points0(), faces);
+        const pointField moved(motion.moved());
+        const shapeMeasures measures
+        (
+            motion.points0(),
+            moved,
+            faces,
+            motion.parameters,
+            motion.derivative()
+        );
         Info<< nl;
         measures.writeMeasures(Info);
         Info<< nl;
@@ -211,16 +287,14 @@ void Foam::morphMeshControls::writeDerivatives
         }
         ffdPreview::writeDerivatives
         (
-            boxes(), ffd.points0(), faces, folder/"derivatives"
+            motion.parameters,
+            moved,
+            faces,
+            motion.derivative(),
+            folder/"derivatives"
         );
         Info<< nl << "Wrote derivatives.dat, measures.dat and derivatives.vtp"
             << " to " << folder.c_str() << endl;
-    }
-    if (!some)
-    {
-        WarningInFunction
-            << "The motion solver has no parameters: option -derivatives is"
-            << " for ffdMotionSolver" << endl;
     }
 }
 
@@ -228,27 +302,21 @@ void Foam::morphMeshControls::writeDerivatives
 void Foam::morphMeshControls::writeConstraints
 (
     const fvMesh& mesh,
-    const PtrList<motionSolver>& solvers,
+    PtrList<motionSolver>& solvers,
     const fileName& folder
 )
 {
-    bool some = false;
-    for (const motionSolver& solver : solvers)
+    for (const parametricMotion& motion : parametric(solvers, "-constraints"))
     {
-        autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
-        if (!boxes.valid())
-        {
-            continue;
-        }
-        some = true;
-        const auto& ffd = refCast<const ffdMotionSolver>(solver);
-        const dictionary& given =
-            dictionaryChecks::subDict(ffd.coeffDict(), "constraints");
+        const dictionary& given = dictionaryChecks::subDict
+        (
+            motion.solver.coeffDict(), "constraints"
+        );
 
         shapeConstraints constraints
         (
             given,
-            ffd.points0(),
+            motion.points0(),
             facesOf
             (
                 mesh,
@@ -262,18 +330,10 @@ void Foam::morphMeshControls::writeConstraints
         );
         constraints.evaluate
         (
-            ffd.points0() + boxes->displacement(),
-            boxes->parameterNames(),
-            [&](const label i) { return boxes->derivative(i); }
+            motion.moved(), motion.names(), motion.derivative()
         );
         mkDir(folder);
         constraints.write(folder + '/');
-    }
-    if (!some)
-    {
-        WarningInFunction
-            << "The motion solver has no parameters: option -constraints is"
-            << " for ffdMotionSolver" << endl;
     }
 }
 
@@ -284,16 +344,13 @@ void Foam::morphMeshControls::writeSensitivities
     PtrList<motionSolver>& solvers
 )
 {
-    bool some = false;
-    for (motionSolver& solver : solvers)
+    for
+    (
+        const parametricMotion& motion
+      : parametric(solvers, "-sensitivityFields")
+    )
     {
-        auto* parameters = dynamic_cast<motionSensitivities*>(&solver);
-        if (!parameters)
-        {
-            continue;
-        }
-        some = true;
-        const wordList names(parameters->parameterNames());
+        const wordList names(motion.names());
         forAll(names, i)
         {
             pointVectorField field
@@ -310,18 +367,12 @@ void Foam::morphMeshControls::writeSensitivities
                 foamCompat::pointMeshOf(mesh),
                 dimensionedVector(dimLength, Zero)
             );
-            field.primitiveFieldRef() = parameters->sensitivity(i);
+            field.primitiveFieldRef() = motion.derivative()(i);
             field.write();
         }
         Info<< "Wrote dx/dmu as fields d_<parameter> of "
             << plainText::counted(names.size(), "parameter").c_str()
             << " to time " << mesh.time().timeName() << endl;
-    }
-    if (!some)
-    {
-        WarningInFunction
-            << "The motion solver has no parameters: option -sensitivityFields"
-            << " is for ffdMotionSolver" << endl;
     }
 }
 

@@ -60,13 +60,13 @@ Usage
 #include "argList.H"
 #include "dictionaryEntries.H"
 #include "ffdFit.H"
-#include "ffdMeasures.H"
 #include "ffdPreview.H"
 #include "finiteNumbers.H"
 #include "IFstream.H"
 #include "morphVersion.H"
 #include "OSspecific.H"
 #include "shapeConstraints.H"
+#include "shapeMeasures.H"
 #include "surfaceFile.H"
 #include "throwing.H"
 #include "untrapped.H"
@@ -315,10 +315,21 @@ static void deform(const argList& args)
     );
     ffdBoxes boxes(fitted(dict, surface), nullptr);
     boxes.setPoints(points, edgesOf(surface));
+    if (boxes.keeps())
+    {
+        boxes.setKept(points, facesOf(surface, boxes.keep()));
+    }
     boxes.update(readTime(args));
     const pointField moved(points + boxes.displacement());
     const faceList faces(facesOf(surface));
-    const ffdMeasures measures(boxes, points, faces);
+    const shapeMeasures measures
+    (
+        points,
+        moved,
+        faces,
+        boxes.parameterList(),
+        [&](const label i) { return boxes.derivative(i); }
+    );
 
     Info<< nl << "Surface of " << surface.size() << " triangles, "
         << (measures.closed() ? "closed" : "open") << nl << nl;

@@ -585,4 +585,26 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
 }
 
 
+Foam::List<Foam::motionParameter> Foam::controlPointGroup::parameters() const
+{
+    return
+        displacement_.valid()
+      ? displacement_->parameters(name_)
+      : List<motionParameter>();
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::controlPointGroup::derivative
+(
+    const prescribedDisplacement::points& p,
+    const label parameteri
+) const
+{
+    return
+        displacement_.valid()
+      ? displacement_->derivative(p, parameteri)
+      : tmp<vectorField>::New(p.positions.size(), Zero);
+}
+
+
 // ************************************************************************* //

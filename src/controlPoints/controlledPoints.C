@@ -267,7 +267,11 @@ void Foam::controlledPoints::matchCopies
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::vectorField Foam::controlledPoints::displacements(string& lost) const
+Foam::vectorField Foam::controlledPoints::displacements
+(
+    const controlPointSource& told,
+    string& lost
+) const
 {
     vectorField d(labels_.size(), unknown);
     forAll(groups_, groupi)
@@ -278,7 +282,7 @@ Foam::vectorField Foam::controlledPoints::displacements(string& lost) const
         const pointField positions(points0_, meshPoints);
         const tmp<vectorField> tvalues
         (
-            groups_[groupi].displacement({positions, meshPoints, listed})
+            told(groupi, {positions, meshPoints, listed})
         );
         forAll(mine, i)
         {
@@ -293,12 +297,12 @@ Foam::vectorField Foam::controlledPoints::displacements(string& lost) const
         }
     }
 
-    const vectorField told(d);
+    const vectorField here(d);
     syncTools::syncPointList
     (
         mesh_, labels_, d, minMagSqrEqOp<vector>(), unknown
     );
-    matchCopies(told, d);
+    matchCopies(here, d);
     scalar largest = 0, most = 0;
     label worst = -1;
     forAll(d, i)

@@ -82,40 +82,6 @@ Foam::boolList Foam::listedControlPoints::firstAtPosition
 }
 
 
-void Foam::listedControlPoints::checkTwins() const
-{
-    forAll(twins_, groupi)
-    {
-        const labelList places(twins_[groupi]);
-        if (places.empty())
-        {
-            continue;
-        }
-
-        // The same on every rank
-        const controlPointGroup& group = groups_[groupi];
-        const pointField x(group.listed(), places);
-        const labelList meshPoints(places.size(), -1);
-        const tmp<vectorField> td(group.displacement({x, meshPoints, places}));
-        const vectorField& d = td();
-        for (label i = 0; i < d.size(); i += 2)
-        {
-            const vector a = plane_.reduce(x[i], d[i]);
-            const vector b = plane_.reduce(x[i + 1], d[i + 1]);
-            if (mag(a - b) > 1e-8*max(mag(a), mag(b)))
-            {
-                FatalIOErrorInFunction(group.dict())
-                    << "Contradicting control points: group '" << group.name()
-                    << "' lists " << x[i] << " twice, with displacements "
-                    << d[i] << " and " << d[i + 1] << nl
-                    << "    Give coincident points one displacement, or remove"
-                    << " all but one of them" << nl << exit(FatalIOError);
-            }
-        }
-    }
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::listedControlPoints::assign(labelList& group, labelList& listed)
@@ -185,10 +151,45 @@ Foam::point Foam::listedControlPoints::position(const label i) const
 }
 
 
-Foam::vectorField Foam::listedControlPoints::displacements() const
+void Foam::listedControlPoints::checkTwins() const
 {
-    checkTwins();
+    forAll(twins_, groupi)
+    {
+        const labelList places(twins_[groupi]);
+        if (places.empty())
+        {
+            continue;
+        }
 
+        // The same on every rank
+        const controlPointGroup& group = groups_[groupi];
+        const pointField x(group.listed(), places);
+        const labelList meshPoints(places.size(), -1);
+        const tmp<vectorField> td(group.displacement({x, meshPoints, places}));
+        const vectorField& d = td();
+        for (label i = 0; i < d.size(); i += 2)
+        {
+            const vector a = plane_.reduce(x[i], d[i]);
+            const vector b = plane_.reduce(x[i + 1], d[i + 1]);
+            if (mag(a - b) > 1e-8*max(mag(a), mag(b)))
+            {
+                FatalIOErrorInFunction(group.dict())
+                    << "Contradicting control points: group '" << group.name()
+                    << "' lists " << x[i] << " twice, with displacements "
+                    << d[i] << " and " << d[i + 1] << nl
+                    << "    Give coincident points one displacement, or remove"
+                    << " all but one of them" << nl << exit(FatalIOError);
+            }
+        }
+    }
+}
+
+
+Foam::vectorField Foam::listedControlPoints::displacements
+(
+    const controlPointSource& told
+) const
+{
     vectorField d(group_.size());
     forAll(groups_, groupi)
     {
@@ -212,7 +213,7 @@ Foam::vectorField Foam::listedControlPoints::displacements() const
         const labelList places(listed);
         const tmp<vectorField> tvalues
         (
-            groups_[groupi].displacement({x, meshPoints, places})
+            told(groupi, {x, meshPoints, places})
         );
         forAll(mine, i)
         {

@@ -263,7 +263,7 @@ morph::Vectors Foam::ffdBox::controlDerivative(const label parameteri) const
             ).transpose();
         }
     }
-    return control;
+    return projection_ ? projection_(control) : control;
 }
 
 
@@ -384,6 +384,35 @@ void Foam::ffdBox::update()
             section.shift + section.change*arms_.row(i).transpose()
         ).transpose();
     }
+}
+
+
+Foam::labelList Foam::ffdBox::held() const
+{
+    const bool axis =
+        settings_.frame->radial()
+     && settings_.frame->frameCoordinates(Vector3::Zero())[0] <= 0;
+    labelHashSet numbers;
+    labelVector p;
+    for (p.z() = 0; p.z() < settings_.nPoints(2); ++p.z())
+    {
+        for (p.y() = 0; p.y() < settings_.nPoints(1); ++p.y())
+        {
+            for (p.x() = 0; p.x() < settings_.nPoints(0); ++p.x())
+            {
+                bool rests = axis && p.x() == 0;
+                forAll(frozenFaces_, face)
+                {
+                    rests = rests || (frozenFaces_[face] && frozen(p, face));
+                }
+                if (rests)
+                {
+                    numbers.insert(settings_.numbers(p));
+                }
+            }
+        }
+    }
+    return numbers.sortedToc();
 }
 
 

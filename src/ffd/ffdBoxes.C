@@ -4,9 +4,11 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdBoxes.H"
+#include "ffdCorrection.H"
 #include "boundBox.H"
-#include "dictionaryChecks.H"
+#include "dictionaryEntries.H"
 #include "foamCompat.H"
+#include "throwing.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -55,12 +57,24 @@ Foam::ffdBoxes::ffdBoxes
         )
     ),
     eachHasSome_(true),
-    prepared_(false)
+    prepared_(false),
+    hasKept_(false),
+    uncorrected_(true)
 {
     readBoxes();
     findParents();
     findStages();
+    if (keeps())
+    {
+        checkKeep();
+    }
 }
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::ffdBoxes::~ffdBoxes()
+{}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -107,6 +121,70 @@ void Foam::ffdBoxes::readBoxes()
             << exit(FatalIOError);
     }
     movedBy_.setSize(boxes_.size());
+}
+
+
+void Foam::ffdBoxes::checkKeep() const
+{
+    const bool one =
+        boxes_.size() == 1 && dynamic_cast<const ffdBox*>(&boxes_[0]);
+    if (!one)
+    {
+        FatalIOErrorInFunction(keep())
+            << "Entry 'keep' is for one box with a lattice, whose control"
+            << " points then move further; here are "
+            << plainText::counted(boxes_.size(), "deformation").c_str() << nl
+            << "    Remove 'keep', or the other boxes" << nl
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::ffdBoxes::correct()
+{
+    if (!hasKept_)
+    {
+        FatalIOErrorInFunction(keep())
+            << "Entry 'keep' is for surfaces of a mesh in three dimensions and"
+            << " for surface files" << nl
+            << "    Remove it" << nl << exit(FatalIOError);
+    }
+    ffdBox& box = dynamic_cast<ffdBox&>(boxes_[0]);
+    if (!correction_.valid())
+    {
+        correction_.reset
+        (
+            new ffdCorrection(keep(), box, keptPoints_, keptFaces_)
+        );
+    }
+    box.correct(correction_->correction(box.control()));
+    box.setProjection
+    (
+        [this](const morph::Vectors& control)
+        {
+            return correction_->derivative(control);
+        }
+    );
+    uncorrected_ = false;
+    string fold;
+    try
+    {
+        const throwing errors;
+        box.checkFold();
+    }
+    catch (const Foam::error& wrong)
+    {
+        fold = wrong.message();
+    }
+    if (!fold.empty())
+    {
+        FatalIOErrorInFunction(keep())
+            << "With the control points that 'keep' moves further: "
+            << fold.c_str() << nl
+            << "    Make the values of the parameters smaller, free more control"
+            << " points, or ask for a value nearer to that at rest" << nl
+            << exit(FatalIOError);
+    }
 }
 
 
@@ -405,7 +483,25 @@ void Foam::ffdBoxes::checkShared
 
 Foam::wordList Foam::ffdBoxes::keys()
 {
-    return {"boxes", "combine"};
+    return {"boxes", "combine", "keep"};
+}
+
+
+const Foam::dictionary& Foam::ffdBoxes::keep() const
+{
+    return dictionaryChecks::subDict(dict_, "keep");
+}
+
+
+void Foam::ffdBoxes::setKept(const pointField& points, const faceList& faces)
+{
+    if (keeps())
+    {
+        keptPoints_ = points;
+        keptFaces_ = faces;
+        hasKept_ = true;
+        correction_.clear();
+    }
 }
 
 
@@ -437,6 +533,19 @@ Foam::scalarField Foam::ffdBoxes::values() const
         values[i] = parameter(i).value();
     }
     return values;
+}
+
+
+Foam::List<Foam::motionParameter> Foam::ffdBoxes::parameterList() const
+{
+    const wordList names(parameterNames());
+    const scalarField now(values());
+    List<motionParameter> list(names.size());
+    forAll(list, i)
+    {
+        list[i] = {names[i], now[i]};
+    }
+    return list;
 }
 
 
@@ -474,6 +583,7 @@ bool Foam::ffdBoxes::update(const scalarField& values)
             }
             boxes_[boxi].update();
             boxes_[boxi].checkFold();
+            uncorrected_ = true;
         }
     }
     return changed.found(true);
@@ -512,6 +622,10 @@ Foam::tmp<Foam::vectorField> Foam::ffdBoxes::displacement()
             prepare(stage);
         }
 
+        if (keeps() && uncorrected_)
+        {
+            correct();
+        }
         forAll(boxes_, boxi)
         {
             if (stage_[boxi] == stage)

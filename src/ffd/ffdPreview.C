@@ -187,28 +187,25 @@ void Foam::ffdPreview::draw(const fileName& folder, const string& options)
 
 void Foam::ffdPreview::writeDerivatives
 (
-    ffdBoxes& boxes,
-    const pointField& points,
+    const List<motionParameter>& parameters,
+    const pointField& moved,
     const faceList& faces,
+    const std::function<tmp<vectorField>(const label)>& derivative,
     const fileName& file
 )
 {
     const compactFaces shown(faces);
-    const pointField moved
-    (
-        pointField(points + boxes.displacement()), shown.labels
-    );
-    vtk::surfaceWriter writer(moved, shown.faces, file);
+    const pointField positions(moved, shown.labels);
+    vtk::surfaceWriter writer(positions, shown.faces, file);
     writer.writeGeometry();
 
-    const wordList names(boxes.parameterNames());
-    writer.beginPointData(names.size());
-    forAll(names, i)
+    writer.beginPointData(parameters.size());
+    for (label i = 0; i < parameters.size(); ++i)
     {
         writer.write
         (
-            "d_" + names[i],
-            vectorField(boxes.derivative(i)(), shown.labels)
+            "d_" + parameters[i].name,
+            vectorField(derivative(i)(), shown.labels)
         );
     }
     const fileName written(writer.output());

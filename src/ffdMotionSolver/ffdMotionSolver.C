@@ -4,6 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdMotionSolver.H"
+#include "ffdCorrection.H"
 #include "ffdFit.H"
 #include "ffdPreview.H"
 #include "addToRunTimeSelectionTable.H"
@@ -56,7 +57,8 @@ Foam::ffdMotionSolver::ffdMotionSolver
         ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
     ),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict())),
-    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise"))
+    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise")),
+    altered_(false)
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
@@ -77,7 +79,8 @@ Foam::ffdMotionSolver::ffdMotionSolver
         ffdFit::fitted(checkedCoeffDict(), mesh, this->points0()), &mesh
     ),
     onInvalidMesh_(motionLimiter::readPolicy(coeffDict())),
-    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise"))
+    optimiseSettings_(optimiseSettings::readFrom(coeffDict(), "optimise")),
+    altered_(false)
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -124,6 +127,13 @@ void Foam::ffdMotionSolver::makeGeometry()
         );
     }
     boxes_.setPoints(positions, mesh().edges());
+    if (boxes_.keeps() && !plane.active())
+    {
+        boxes_.setKept
+        (
+            points0(), ffdCorrection::faces(boxes_.keep(), mesh())
+        );
+    }
 }
 
 
@@ -339,6 +349,7 @@ void Foam::ffdMotionSolver::solve()
     }
 
     vectorField d(displacement());
+    const vectorField whole(d);
     if (first)
     {
         warnOfCutPatches();
@@ -351,6 +362,7 @@ void Foam::ffdMotionSolver::solve()
         "Make the values of the parameters smaller, or spread them over more"
         " control points"
     );
+    altered_ = returnReduce(d != whole, orOp<bool>());
     pointDisplacement_.primitiveFieldRef() = d;
 }
 
@@ -367,9 +379,9 @@ void Foam::ffdMotionSolver::updateMesh(const mapPolyMesh& map)
 }
 
 
-Foam::wordList Foam::ffdMotionSolver::parameterNames() const
+Foam::List<Foam::motionParameter> Foam::ffdMotionSolver::parameters() const
 {
-    return boxes_.parameterNames();
+    return boxes_.parameterList();
 }
 
 
@@ -378,11 +390,23 @@ Foam::tmp<Foam::vectorField> Foam::ffdMotionSolver::sensitivity
     const label parameteri
 )
 {
+    if (altered_)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The mesh was optimised after the motion, or the motion limited"
+            << " to a part of what is prescribed: dx/dmu is that of the motion"
+            << " alone" << nl
+            << "    Make the values of the parameters smaller, or remove"
+            << " 'optimise'" << nl
+            << exit(FatalIOError);
+    }
+
     // Linear, like the motion itself: what constraints take from it is told
     // where the mesh moves
     auto d = tmp<vectorField>::New(inMesh(boxes_.derivative(parameteri)));
     symmetry_->impose(d.ref());
     reduced_->match(d.ref());
+    zone_->restrict(d.ref());
     return d;
 }
 

@@ -4,9 +4,11 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "ffdDisplacement.H"
+#include "ffdCorrection.H"
 #include "ffdFit.H"
 #include "addToRunTimeSelectionTable.H"
 #include "dictionaryChecks.H"
+#include "points0MotionSolver.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -38,6 +40,14 @@ Foam::ffdDisplacement::ffdDisplacement
     wordList keys(ffdBoxes::keys());
     keys.append("type");
     dictionaryChecks::onlyKeys(dict, keys);
+    if (boxes_.keeps() && mesh.nGeometricD() == 3)
+    {
+        boxes_.setKept
+        (
+            pointIOField(points0MotionSolver::points0IO(mesh)),
+            ffdCorrection::faces(boxes_.keep(), mesh)
+        );
+    }
 }
 
 
@@ -68,12 +78,13 @@ Foam::edgeList Foam::ffdDisplacement::edgesBetween
 }
 
 
-void Foam::ffdDisplacement::setPoints(const points& p) const
+bool Foam::ffdDisplacement::prepare(const points& p) const
 {
+    const bool moved = boxes_.update(mesh().time().timeOutputValue());
     const bool same = p.positions == positions_;
     if (returnReduce(same, andOp<bool>()))
     {
-        return;
+        return moved;
     }
     positions_ = p.positions;
 
@@ -84,6 +95,7 @@ void Foam::ffdDisplacement::setPoints(const points& p) const
         returnReduce(onMesh, orOp<bool>())
      || returnReduce(p.positions.size(), sumOp<label>()) >= nListed_;
     boxes_.setPoints(p.positions, edgesBetween(p.meshPoints), whole);
+    return true;
 }
 
 
@@ -94,9 +106,32 @@ Foam::tmp<Foam::vectorField> Foam::ffdDisplacement::displacement
     const points& p
 ) const
 {
-    boxes_.update(mesh().time().timeOutputValue());
-    setPoints(p);
+    prepare(p);
     return boxes_.displacement();
+}
+
+
+Foam::List<Foam::motionParameter> Foam::ffdDisplacement::parameters
+(
+    const word& group
+) const
+{
+    boxes_.update(mesh().time().timeOutputValue());
+    return boxes_.parameterList();
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::ffdDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    if (prepare(p))
+    {
+        boxes_.displacement();
+    }
+    return boxes_.derivative(parameteri);
 }
 
 

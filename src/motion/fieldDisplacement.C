@@ -109,4 +109,23 @@ Foam::tmp<Foam::vectorField> Foam::fieldDisplacement::displacement
 }
 
 
+Foam::List<Foam::motionParameter> Foam::fieldDisplacement::parameters
+(
+    const word& group
+) const
+{
+    return List<motionParameter>({{group + ".scale", 1}});
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::fieldDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    return displacement(p);
+}
+
+
 // ************************************************************************* //

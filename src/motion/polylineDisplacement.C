@@ -49,27 +49,28 @@ Foam::polylineDisplacement::polylineDisplacement
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::vector Foam::polylineDisplacement::at(const point& x) const
+Foam::polylineDisplacement::place Foam::polylineDisplacement::nearest
+(
+    const point& x
+) const
 {
-    vector value(Zero);
-    scalar nearest = GREAT;
+    place found{-1, 0, false};
+    scalar least = GREAT;
     for (label i = 0; i + 1 < vertices_.size(); ++i)
     {
         const vector edge = vertices_[i + 1] - vertices_[i];
-        const scalar t = min
-        (
+        const scalar along =
             max((x - vertices_[i]) & edge, scalar(0))
-           /max(magSqr(edge), VSMALL),
-            scalar(1)
-        );
+           /max(magSqr(edge), VSMALL);
+        const scalar t = min(along, scalar(1));
         const scalar distance = mag(x - vertices_[i] - t*edge);
-        if (distance < nearest)
+        if (distance < least)
         {
-            nearest = distance;
-            value = (1 - t)*values_[i] + t*values_[i + 1];
+            least = distance;
+            found = {i, t, t > 0 && along < 1};
         }
     }
-    return value;
+    return found;
 }
 
 
@@ -80,10 +81,72 @@ Foam::tmp<Foam::vectorField> Foam::polylineDisplacement::unscaled
     const points& p
 ) const
 {
-    auto d = tmp<vectorField>::New(p.positions.size());
+    auto d = tmp<vectorField>::New(p.positions.size(), Zero);
     forAll(p.positions, i)
     {
-        d.ref()[i] = at(p.positions[i]);
+        const place at(nearest(p.positions[i]));
+        if (at.edge >= 0)
+        {
+            d.ref()[i] =
+                (1 - at.t)*values_[at.edge] + at.t*values_[at.edge + 1];
+        }
+    }
+    return d;
+}
+
+
+Foam::List<Foam::motionParameter>
+Foam::polylineDisplacement::tableParameters(const word& group) const
+{
+    DynamicList<motionParameter> list;
+    forAll(values_, i)
+    {
+        append(list, group + ".values." + Foam::name(i), values_[i]);
+    }
+    forAll(vertices_, i)
+    {
+        append(list, group + ".vertices." + Foam::name(i), vertices_[i]);
+    }
+    return List<motionParameter>(list);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::polylineDisplacement::tableDerivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    const vector e(unit(parameteri % vector::nComponents));
+    const label row = parameteri/vector::nComponents;
+    const bool ofVertex = row >= values_.size();
+    const label vertexi = ofVertex ? row - values_.size() : row;
+
+    auto d = tmp<vectorField>::New(p.positions.size(), Zero);
+    forAll(p.positions, i)
+    {
+        const place at(nearest(p.positions[i]));
+        const bool ofEnd = vertexi == at.edge + 1;
+        if (at.edge < 0 || (vertexi != at.edge && !ofEnd))
+        {
+            continue;
+        }
+        if (!ofVertex)
+        {
+            d.ref()[i] = (ofEnd ? at.t : 1 - at.t)*e;
+        }
+        else if (at.inside)
+        {
+            // Of t = (x - a) . (b - a)/|b - a|^2
+            const point& a = vertices_[at.edge];
+            const vector edge = vertices_[at.edge + 1] - a;
+            const vector off = p.positions[i] - a;
+            const vector dt =
+                ofEnd ? off - 2*at.t*edge : (2*at.t - 1)*edge - off;
+            d.ref()[i] =
+                (dt & e)/magSqr(edge)
+               *(values_[at.edge + 1] - values_[at.edge]);
+        }
     }
     return d;
 }

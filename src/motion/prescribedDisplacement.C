@@ -58,4 +58,34 @@ Foam::autoPtr<Foam::prescribedDisplacement> Foam::prescribedDisplacement::New
 }
 
 
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::prescribedDisplacement::append
+(
+    DynamicList<motionParameter>& parameters,
+    const word& name,
+    const vector& value
+)
+{
+    for (direction c = 0; c < vector::nComponents; ++c)
+    {
+        parameters.append
+        (
+            {name + '.' + vector::componentNames[c], value[c]}
+        );
+    }
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::prescribedDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    // Of one without parameters there is none
+    return tmp<vectorField>::New(p.positions.size(), Zero);
+}
+
+
 // ************************************************************************* //

@@ -39,23 +39,57 @@ Foam::tabulatedDisplacement::tabulatedDisplacement
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::scalar Foam::tabulatedDisplacement::scale() const
+{
+    if (!scale_.valid())
+    {
+        return 1;
+    }
+    return dictionaryChecks::naming
+    (
+        dict(),
+        "scale",
+        [&]{ return scale_->value(mesh().time().timeOutputValue()); }
+    );
+}
+
+
 Foam::tmp<Foam::vectorField> Foam::tabulatedDisplacement::displacement
 (
     const points& p
 ) const
 {
     tmp<vectorField> d = unscaled(p);
-    if (scale_.valid())
+    const scalar factor = scale();
+    const untrapped numbers;
+    d.ref() *= factor;
+    return d;
+}
+
+
+Foam::List<Foam::motionParameter> Foam::tabulatedDisplacement::parameters
+(
+    const word& group
+) const
+{
+    List<motionParameter> list({{group + ".scale", scale()}});
+    list.append(tableParameters(group));
+    return list;
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::tabulatedDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    if (parameteri == 0)
     {
-        const scalar scale = dictionaryChecks::naming
-        (
-            dict(),
-            "scale",
-            [&]{ return scale_->value(mesh().time().timeOutputValue()); }
-        );
-        const untrapped numbers;
-        d.ref() *= scale;
+        return unscaled(p);
     }
+    tmp<vectorField> d = tableDerivative(p, parameteri - 1);
+    d.ref() *= scale();
     return d;
 }
 

@@ -49,21 +49,44 @@ Foam::uniformDisplacement::uniformDisplacement
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::vector Foam::uniformDisplacement::value() const
+{
+    return dictionaryChecks::naming
+    (
+        dict(),
+        "value",
+        [&]{ return value_->value(mesh().time().timeOutputValue()); }
+    );
+}
+
+
 Foam::tmp<Foam::vectorField> Foam::uniformDisplacement::displacement
 (
     const points& p
 ) const
 {
-    return tmp<vectorField>::New
-    (
-        p.positions.size(),
-        dictionaryChecks::naming
-        (
-            dict(),
-            "value",
-            [&]{ return value_->value(mesh().time().timeOutputValue()); }
-        )
-    );
+    return tmp<vectorField>::New(p.positions.size(), value());
+}
+
+
+Foam::List<Foam::motionParameter> Foam::uniformDisplacement::parameters
+(
+    const word& group
+) const
+{
+    DynamicList<motionParameter> list;
+    append(list, group + ".value", value());
+    return List<motionParameter>(list);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::uniformDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    return tmp<vectorField>::New(p.positions.size(), unit(parameteri));
 }
 
 

@@ -66,4 +66,36 @@ Foam::tmp<Foam::vectorField> Foam::valuesDisplacement::unscaled
 }
 
 
+Foam::List<Foam::motionParameter> Foam::valuesDisplacement::tableParameters
+(
+    const word& group
+) const
+{
+    DynamicList<motionParameter> list;
+    forAll(values_, i)
+    {
+        append(list, group + ".values." + Foam::name(i), values_[i]);
+    }
+    return List<motionParameter>(list);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::valuesDisplacement::tableDerivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    auto d = tmp<vectorField>::New(p.listed.size(), Zero);
+    forAll(p.listed, i)
+    {
+        if (p.listed[i] == parameteri/vector::nComponents)
+        {
+            d.ref()[i] = unit(parameteri % vector::nComponents);
+        }
+    }
+    return d;
+}
+
+
 // ************************************************************************* //

@@ -85,19 +85,64 @@ bool Foam::velocityDisplacement::integrable(const word& functionType)
 }
 
 
+Foam::scalar Foam::velocityDisplacement::way() const
+{
+    return speed_->integrate(start_, mesh().time().timeOutputValue());
+}
+
+
+Foam::vector Foam::velocityDisplacement::path() const
+{
+    return velocity_->integrate(start_, mesh().time().timeOutputValue());
+}
+
+
 Foam::tmp<Foam::vectorField> Foam::velocityDisplacement::displacement
 (
     const points& p
 ) const
 {
-    const scalar now = mesh().time().timeOutputValue();
     return tmp<vectorField>::New
     (
         p.positions.size(),
-        speed_.valid()
-      ? speed_->integrate(start_, now)*direction_
-      : velocity_->integrate(start_, now)
+        speed_.valid() ? way()*direction_ : path()
     );
+}
+
+
+Foam::List<Foam::motionParameter> Foam::velocityDisplacement::parameters
+(
+    const word& group
+) const
+{
+    const scalar now = mesh().time().timeOutputValue();
+    DynamicList<motionParameter> list;
+    if (speed_.valid())
+    {
+        append(list, group + ".direction", direction_);
+        list.append({group + ".value", speed_->value(now)});
+    }
+    else
+    {
+        append(list, group + ".value", velocity_->value(now));
+    }
+    return List<motionParameter>(list);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::velocityDisplacement::derivative
+(
+    const points& p,
+    const label parameteri
+) const
+{
+    // By what is added to the velocity at all times
+    const scalar span = mesh().time().timeOutputValue() - start_;
+    const vector d =
+        !speed_.valid() ? span*unit(parameteri)
+      : parameteri < vector::nComponents ? way()*unit(parameteri)
+      : span*direction_;
+    return tmp<vectorField>::New(p.positions.size(), d);
 }
 
 

@@ -32,6 +32,11 @@ static const scalar roughTolerance = 1e-2;
 // Points that determine a linear map
 static const morph::Index linearPoints = 4;
 
+// Of derivatives of conditions that follow from positions: the most renewals,
+// and the change that ends them
+static const label mostRenewals = 50;
+static const scalar settledDerivative = 1e-12;
+
 // Of what is prescribed, how far a field may reach without a word
 static const scalar mostOvershoot = 2;
 
@@ -106,6 +111,40 @@ void Foam::rbfField::alignDirections(morph::Communicator& communicator)
     {
         controlPoints.renewDirections(region_, s);
     }
+}
+
+
+void Foam::rbfField::correct
+(
+    const morph::Vectors& residuals,
+    morph::Communicator& communicator,
+    morph::Vectors& s
+)
+{
+    const scalar correctionRadius = problem_.correctionRadius(region_);
+    if (correctionRadius <= 0)
+    {
+        return;
+    }
+    if (!exactSurface_)
+    {
+        exactSurface_.reset
+        (
+            new morph::ExactSurface
+            (
+                correctionRadius, problem_.images().inReach()
+            )
+        );
+        positions_ = problem_.reduced().positions(region_);
+    }
+    exactSurface_->add
+    (
+        candidates().conditions,
+        residuals,
+        communicator,
+        asVectors(positions_),
+        s
+    );
 }
 
 
@@ -364,34 +403,121 @@ void Foam::rbfField::propagate(vectorField& inPlane)
 {
     morph::Vectors s = selection_->interpolant()(cloud_);
     warnOfOvershoot(s);
-    const scalar correctionRadius = problem_.correctionRadius(region_);
-    if (correctionRadius > 0)
-    {
-        if (!exactSurface_)
-        {
-            exactSurface_.reset
-            (
-                new morph::ExactSurface
-                (
-                    correctionRadius, problem_.images().inReach()
-                )
-            );
-            positions_ = problem_.reduced().positions(region_);
-        }
-        pstreamCommunicator communicator;
-        exactSurface_->add
-        (
-            candidates().conditions,
-            selection_->residuals(candidates().conditions),
-            communicator,
-            asVectors(positions_),
-            s
-        );
-    }
+    pstreamCommunicator communicator;
+    correct
+    (
+        selection_->residuals(candidates().conditions), communicator, s
+    );
     const labelList& evaluated = problem_.reduced().independent(region_);
     forAll(evaluated, i)
     {
         inPlane[evaluated[i]] = toFoam(s.row(i).transpose());
+    }
+}
+
+
+void Foam::rbfField::selectFor(const std::vector<morph::ControlPoints>& sets)
+{
+    pstreamCommunicator communicator;
+    if (problem_.mayFollow(region_))
+    {
+        morph::SelectionSettings few(problem_.settings().selection);
+        few.maxPoints = min(few.maxPoints, linearPoints);
+        selection_ = std::make_shared<morph::GreedySelection>
+        (
+            problem_.kernel(), morph::Polynomial::linear, few
+        );
+        linear_ = true;
+        for (const morph::ControlPoints& values : sets)
+        {
+            linear_ =
+                linear_ && selection_->select(values, communicator).converged();
+        }
+        if (linear_)
+        {
+            return;
+        }
+    }
+    makeSelection(communicator);
+    for (const morph::ControlPoints& values : sets)
+    {
+        selection_->select(values, communicator);
+    }
+}
+
+
+void Foam::rbfField::differentiate
+(
+    std::vector<morph::ControlPoints>& sets,
+    PtrList<vectorField>& inPlane,
+    scalarList& largest,
+    scalarList& open
+)
+{
+    pstreamCommunicator communicator;
+    const rbfControlPoints& controlPoints = problem_.controlPoints();
+    const morph::PointCloud there(candidates().positions());
+    std::vector<morph::RbfInterpolant> fields =
+        selection_->interpolants(sets, communicator);
+    if (controlPoints.follow())
+    {
+        // Where conditions follow from positions, their derivatives do from
+        // those of positions: with each step of this iteration they converge as
+        // Newton's method on the chord does
+        const morph::Vectors s = atCandidates(*selection_);
+        for (label step = 0; step < mostRenewals; ++step)
+        {
+            scalar change = 0, size = 0;
+            const std::vector<morph::Vectors> at =
+                morph::RbfInterpolant::together(fields, there);
+            for (std::size_t k = 0; k < sets.size(); ++k)
+            {
+                const morph::ControlPoints former(sets[k]);
+                controlPoints.renewDerivatives
+                (
+                    region_, s, at[k], sets[k]
+                );
+                for (std::size_t j = 0; j < former.size(); ++j)
+                {
+                    change = max
+                    (
+                        change, (former[j].g() - sets[k][j].g()).norm()
+                    );
+                    size = max(size, sets[k][j].g().norm());
+                }
+            }
+            reduce(change, maxOp<scalar>());
+            reduce(size, maxOp<scalar>());
+            if (change <= settledDerivative*size)
+            {
+                break;
+            }
+            fields = selection_->interpolants(sets, communicator);
+        }
+    }
+
+    const labelList& evaluated = problem_.reduced().independent(region_);
+    std::vector<morph::Vectors> all =
+        morph::RbfInterpolant::together(fields, cloud_);
+    std::vector<morph::Vectors> left =
+        morph::RbfInterpolant::together(fields, there);
+    for (std::size_t k = 0; k < sets.size(); ++k)
+    {
+        morph::Vectors& s = all[k];
+        morph::Vectors& residuals = left[k];
+        for (std::size_t j = 0; j < sets[k].size(); ++j)
+        {
+            const morph::ControlPoint& p = sets[k][j];
+            const morph::Vector3 r = p.residual(residuals.row(j).transpose());
+            residuals.row(j) = (p.C()*r.head(p.k)).transpose();
+            largest[k] = max(largest[k], p.g().norm());
+            open[k] = max(open[k], r.head(p.k).norm());
+        }
+        correct(residuals, communicator, s);
+        forAll(evaluated, i)
+        {
+            inPlane[k][evaluated[i]] = toFoam(s.row(i).transpose());
+        }
     }
 }
 

@@ -182,6 +182,24 @@ Foam::rbfMotionProblem::change Foam::rbfMotionProblem::update
 }
 
 
+void Foam::rbfMotionProblem::provideRadius(const scalar span)
+{
+    const bool none = radius() == 0;
+    if (!radius_.provide(span))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Nothing moves at these values, so that the support radius,"
+            << " which is to follow from the displacement, would be zero" << nl
+            << "    For derivatives there give 'supportRadius', a length [m],"
+            << " instead of 'supportRadiusFactor'" << nl << exit(FatalIOError);
+    }
+    if (none && !images_.reach(radius()))
+    {
+        controlPoints_.update(true);
+    }
+}
+
+
 bool Foam::rbfMotionProblem::moves(const label regioni) const
 {
     // A body about to start moves by round-off, which is not worth control
@@ -247,6 +265,24 @@ void Foam::rbfMotionProblem::constrain
         reduced_.match(inPlane);
     }
     controlPoints_.impose(inPlane, settings_.exactSliding, fraction);
+}
+
+
+void Foam::rbfMotionProblem::constrainDerivative
+(
+    const vectorField& controlled,
+    const vectorField& displacement,
+    vectorField& inPlane
+) const
+{
+    if (!images_.periodic())
+    {
+        reduced_.match(inPlane);
+    }
+    controlPoints_.imposeDerivative
+    (
+        controlled, displacement, inPlane, settings_.exactSliding
+    );
 }
 
 

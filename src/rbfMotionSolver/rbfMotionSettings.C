@@ -253,7 +253,11 @@ void Foam::rbfMotionSettings::check
     {
         keys.append
         (
-            wordList({"controlPoints", "greedy", "frozenPointsZone", "optimise"})
+            wordList
+            ({
+                "controlPoints", "greedy", "frozenPointsZone", "optimise",
+                "constraints"
+            })
         );
         keys.append(motionZone::keys());
         keys.append(rigidMotion::keys(dict));

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "rbfMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
+#include "cpuTime.H"
 #include "controlPointShape.H"
 #include "dictionaryChecks.H"
 #include "foamCompat.H"
@@ -73,7 +74,10 @@ Foam::rbfMotionSolver::rbfMotionSolver
     report_(mesh, settings_),
     state_(mesh),
     moving_(readMoving()),
-    formerIndex_(-1)
+    formerIndex_(-1),
+    nSteps_(1),
+    fraction_(1),
+    wasOptimised_(false)
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
@@ -93,7 +97,10 @@ Foam::rbfMotionSolver::rbfMotionSolver
     report_(mesh, settings_),
     state_(mesh),
     moving_(readMoving()),
-    formerIndex_(-1)
+    formerIndex_(-1),
+    nSteps_(1),
+    fraction_(1),
+    wasOptimised_(false)
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -381,6 +388,49 @@ void Foam::rbfMotionSolver::limit(rbfMotion& motion)
 }
 
 
+void Foam::rbfMotionSolver::checkDifferentiable() const
+{
+    if (!problem_.valid())
+    {
+        FatalErrorInFunction
+            << "Derivatives of a motion are asked for before the motion" << nl
+            << exit(FatalError);
+    }
+    if (nSteps_ > 1)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The motion was made in " << nSteps_ << " steps: dx/dmu is that"
+            << " of motions in one step" << nl
+            << "    Use 'subSteps 1', with a larger 'supportRadius' where the"
+            << " mesh is invalid then" << nl << exit(FatalIOError);
+    }
+    if (moving_)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "With 'reference moving' a mesh depends on all steps before: there"
+            << " is no dx/dmu of one" << nl
+            << "    Use 'reference fixed'" << nl << exit(FatalIOError);
+    }
+    if (wasOptimised_)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The mesh was optimised after the motion: dx/dmu is that of the"
+            << " motion alone" << nl
+            << "    Remove 'optimise', or ask for derivatives of a smaller"
+            << " motion, which needs none" << nl << exit(FatalIOError);
+    }
+    if (fraction_ < 1)
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The motion was limited to " << fraction_ << " of what is"
+            << " prescribed ('onInvalidMesh limit'), which depends on no"
+            << " parameter smoothly" << nl
+            << "    " << problem_->remedy().c_str() << nl
+            << exit(FatalIOError);
+    }
+}
+
+
 void Foam::rbfMotionSolver::report(const rbfMotion& motion)
 {
     motionRecord* record = motionRecord::of(mesh());
@@ -428,6 +478,10 @@ try
     }
     motionTimes times;
     const bool first = !problem_.valid();
+    sensitivities_.clear();
+    nSteps_ = 1;
+    fraction_ = 1;
+    wasOptimised_ = false;
     prepare();
     times.lap(motionTimes::conditions);
 
@@ -436,12 +490,17 @@ try
     {
         rbfMotion motion(move());
         report_.write(problem_(), motion);
+        const vectorField told(motion.displacement);
         optimise(motion);
+        wasOptimised_ =
+            returnReduce(motion.displacement != told, orOp<bool>());
         limit(motion);
         motion.times += times;
         report(motion);
         pointDisplacement_.primitiveFieldRef() = motion.displacement;
         selections_ = motion.selections;
+        nSteps_ = motion.nSteps;
+        fraction_ = motion.fraction;
     }
     else
     {
@@ -487,6 +546,52 @@ Foam::List<Foam::controlShape> Foam::rbfMotionSolver::shapes() const
 }
 
 
+Foam::List<Foam::motionParameter> Foam::rbfMotionSolver::parameters() const
+{
+    List<DynamicList<labelPair>> sources;
+    return rbfSensitivities::parameters(groups_(), sources);
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::rbfMotionSolver::sensitivity
+(
+    const label parameteri
+)
+try
+{
+    if (!sensitivities_.valid())
+    {
+        checkDifferentiable();
+        sensitivities_.reset
+        (
+            new rbfSensitivities
+            (
+                coeffDict(), problem_(), groups_(), oneStep_(),
+                pointDisplacement_.primitiveField()
+            )
+        );
+    }
+    const cpuTime clock;
+    tmp<vectorField> derivative(sensitivities_()(parameteri));
+    if (debug)
+    {
+        Info<< type() << ": dx/dmu of parameter " << parameteri << ": "
+            << clock.elapsedCpuTime() << " s of CPU time" << endl;
+    }
+    return derivative;
+}
+catch (const Foam::error&)
+{
+    throw;
+}
+catch (const std::exception& wrong)
+{
+    FatalIOErrorInFunction(coeffDict())
+        << wrong.what() << nl << exit(FatalIOError);
+    return nullptr;
+}
+
+
 void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
 {
     displacementMotionSolver::updateMesh(map);
@@ -495,6 +600,7 @@ void Foam::rbfMotionSolver::updateMesh(const mapPolyMesh& map)
     formerIndex_ = -1;
     state_.clearPositions();
     optimised_.clear();
+    sensitivities_.clear();
     oneStep_.clear();
     problem_.clear();
     report_.clear();

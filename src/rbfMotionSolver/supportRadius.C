@@ -82,6 +82,16 @@ Foam::scalar Foam::supportRadius::needed
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::supportRadius::provide(const scalar span)
+{
+    if (value_ == 0)
+    {
+        value_ = settings_.supportRadiusSpans*span;
+    }
+    return value_ > 0;
+}
+
+
 bool Foam::supportRadius::update(const rbfControlPoints& controlPoints)
 {
     const scalar former = value_;

@@ -25,7 +25,9 @@ Foam::shapeConstraint::typeNames
     { constraintType::wettedArea, "wettedArea" },
     { constraintType::distance, "distance" },
     { constraintType::volume, "volume" },
-    { constraintType::barycentre, "barycentre" }
+    { constraintType::barycentre, "barycentre" },
+    { constraintType::mean, "mean" },
+    { constraintType::linear, "linear" }
 });
 
 
@@ -107,11 +109,16 @@ Foam::wordList Foam::shapeConstraint::keys() const
 
         case constraintType::projectedArea:
         case constraintType::barycentre:
+        case constraintType::mean:
             keys.append("direction");
             break;
 
         case constraintType::wettedArea:
             keys.append(wordList({"point", "normal"}));
+            break;
+
+        case constraintType::linear:
+            keys.append(wordList({"points", "coefficients"}));
             break;
 
         case constraintType::distance:
@@ -276,6 +283,53 @@ void Foam::shapeConstraint::readEdge
 }
 
 
+void Foam::shapeConstraint::readLinear
+(
+    const morph::Vectors& points,
+    const morph::Triangles& triangles
+)
+{
+    const List<point> given(dict_.lookup("points"));
+    const List<vector> coefficients(dict_.lookup("coefficients"));
+    if (given.empty() || coefficients.size() != given.size())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entries 'points' and 'coefficients' list " << given.size()
+            << " and " << coefficients.size() << " vectors" << nl
+            << "    Give at least one point, and coefficients for each" << nl
+            << exit(FatalIOError);
+    }
+    std::vector<std::pair<morph::SurfacePlace, morph::Vector3>> terms;
+    forAll(given, i)
+    {
+        terms.emplace_back
+        (
+            morph::nearestPlace(points, triangles, toEigen(given[i])),
+            toEigen(coefficients[i])
+        );
+    }
+    add
+    (
+        "",
+        [terms](const morph::Vectors& x)
+        {
+            morph::ShapeValue sum;
+            for (const auto& term : terms)
+            {
+                const auto one = morph::component(x, term.first, term.second);
+                sum.value += one.value;
+                sum.gradient.insert
+                (
+                    sum.gradient.end(),
+                    one.gradient.begin(), one.gradient.end()
+                );
+            }
+            return sum;
+        }
+    );
+}
+
+
 void Foam::shapeConstraint::readDistance()
 {
     fileName file(dict_.get<fileName>("surface"));
@@ -417,6 +471,35 @@ void Foam::shapeConstraint::read
                 }
             );
             break;
+
+        case constraintType::linear:
+            readLinear(points, triangles);
+            break;
+
+        case constraintType::mean:
+        {
+            const vectorList directions(readDirections());
+            forAll(directions, i)
+            {
+                const morph::Vector3 d = toEigen(directions[i]);
+                add
+                (
+                    directions.size() == 1 ? word() : axisName(i),
+                    [d](const morph::Vectors& x)
+                    {
+                        morph::ShapeValue mean;
+                        const scalar n = x.rows();
+                        mean.value = (x*d).sum()/n;
+                        for (Eigen::Index j = 0; j < x.rows(); ++j)
+                        {
+                            mean.gradient.emplace_back(j, d/n);
+                        }
+                        return mean;
+                    }
+                );
+            }
+            break;
+        }
 
         case constraintType::barycentre:
         {

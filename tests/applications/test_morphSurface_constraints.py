@@ -7,49 +7,10 @@ Sources of truth: closed forms of a stretched cube; central differences of the
 program's own values.
 """
 
-import numpy as np
 import pytest
 
 from ffdCase import ffd_box, parameter
-from surfaceCase import morphed, write_surface
-
-N = 6
-
-
-def cube_surface():
-    """A unit cube with N x N squares on each side, cut into triangles."""
-    index, points, faces = {}, [], []
-
-    def vertex(x):
-        key = tuple(np.round(np.array(x) * N).astype(int))
-        if key not in index:
-            index[key] = len(points)
-            points.append(tuple(k / N for k in key))
-        return index[key]
-
-    for axis in range(3):
-        for end in (0, 1):
-            for i in range(N):
-                for j in range(N):
-                    corners = []
-                    for u, v in (
-                        (i, j),
-                        (i + 1, j),
-                        (i + 1, j + 1),
-                        (i, j + 1),
-                    ):
-                        x = np.empty(3)
-                        x[axis] = end
-                        x[(axis + 1) % 3], x[(axis + 2) % 3] = u / N, v / N
-                        corners.append(vertex(x))
-                    if not end:
-                        corners.reverse()
-                    faces += [
-                        corners[:3],
-                        [corners[0], corners[2], corners[3]],
-                    ]
-    return np.array(points), faces
-
+from surfaceCase import cube_surface, morphed, table, write_surface
 
 CONSTRAINTS = """constraints
 {
@@ -80,11 +41,6 @@ def boxes(a=0.2, b=-0.1):
         )
         + parameter("b", [((0, 1, 2), (0.3, -0.2, 0.6))], repr(b)),
     )
-
-
-def table(path):
-    lines = path.read_text().splitlines()
-    return {line.split()[0]: line.split()[1:] for line in lines[1:]}
 
 
 def evaluated(path, box, constraints=CONSTRAINTS):

@@ -64,3 +64,44 @@ def morphed(
     moved = vertices(path / "out.obj")
     assert len(moved) == len(points)
     return (moved, log) if output else moved
+
+
+def table(path):
+    """Rows of numbers by their name, of a file that morphSurface writes."""
+    lines = path.read_text().splitlines()
+    return {line.split()[0]: line.split()[1:] for line in lines[1:]}
+
+
+def cube_surface(n=6):
+    """A unit cube with n x n squares on each side, cut into triangles."""
+    index, points, faces = {}, [], []
+
+    def vertex(x):
+        key = tuple(np.round(np.array(x) * n).astype(int))
+        if key not in index:
+            index[key] = len(points)
+            points.append(tuple(k / n for k in key))
+        return index[key]
+
+    for axis in range(3):
+        for end in (0, 1):
+            for i in range(n):
+                for j in range(n):
+                    corners = []
+                    for u, v in (
+                        (i, j),
+                        (i + 1, j),
+                        (i + 1, j + 1),
+                        (i, j + 1),
+                    ):
+                        x = np.empty(3)
+                        x[axis] = end
+                        x[(axis + 1) % 3], x[(axis + 2) % 3] = u / n, v / n
+                        corners.append(vertex(x))
+                    if not end:
+                        corners.reverse()
+                    faces += [
+                        corners[:3],
+                        [corners[0], corners[2], corners[3]],
+                    ]
+    return np.array(points), faces

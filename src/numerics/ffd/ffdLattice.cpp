@@ -230,6 +230,43 @@ FfdLattice::displacement(const LatticeRows& rows, const Vectors& control) const
 }
 
 
+Vectors FfdLattice::transposed(const LatticeRows& rows, const Vectors& g) const
+{
+    const Index a = basis_[0].degree() + 1;
+    const Index b = basis_[1].degree() + 1;
+    const Index c = basis_[2].degree() + 1;
+    Vectors control = Vectors::Zero(size(), 3);
+    const std::int32_t* first = rows.first.data();
+    const double* row = rows.values.data();
+    for (Index point = 0; point < rows.size; ++point)
+    {
+        const Eigen::RowVector3d scaled =
+            (rational() ? rows.scale[std::size_t(point)] : 1) * g.row(point);
+        const bool some = !scaled.isZero(0);
+        for (Index k = 0; some && k < c; ++k)
+        {
+            for (Index j = 0; j < b; ++j)
+            {
+                const double plane = row[a + b + k] * row[a + j];
+                for (Index i = 0; i < a; ++i)
+                {
+                    const Index to = number(
+                        basis_[0].control(first[0] + i),
+                        basis_[1].control(first[1] + j),
+                        basis_[2].control(first[2] + k));
+                    const double weight =
+                        rational() ? weights_[std::size_t(to)] : 1;
+                    control.row(to) += plane * row[i] * weight * scaled;
+                }
+            }
+        }
+        first += 3;
+        row += a + b + c;
+    }
+    return control;
+}
+
+
 Vector3
 FfdLattice::displacement(const Vector3& xi, const Vectors& control) const
 {

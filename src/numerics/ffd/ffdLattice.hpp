@@ -69,6 +69,10 @@ public:
     // displacements (size() x 3). Exactly zero where those that matter are
     Vectors displacement(const LatticeRows& rows, const Vectors& control) const;
 
+    // The transposed map: what displacement() has by the control points of
+    // sum_i g_i . d_i for vectors g at the points (n x 3): size() x 3
+    Vectors transposed(const LatticeRows& rows, const Vectors& g) const;
+
     // At one point; its derivative by xi in the columns of the matrix
     Vector3 displacement(const Vector3& xi, const Vectors& control) const;
 

@@ -490,8 +490,8 @@ void GreedySelection::makeSystem(
 }
 
 
-void GreedySelection::refreshValues(
-    const ControlPoints& candidates, Communicator& communicator)
+std::vector<Vector3> GreedySelection::selectedValues(
+    const ControlPoints& candidates, Communicator& communicator) const
 {
     std::vector<double> v(3 * origins_.size(), 0.0);
     for (std::size_t i = 0; i < origins_.size(); ++i)
@@ -503,12 +503,35 @@ void GreedySelection::refreshValues(
         }
     }
     v = communicator.sum(v);
+    std::vector<Vector3> values(origins_.size());
     for (std::size_t i = 0; i < origins_.size(); ++i)
     {
-        values_[i] = Eigen::Map<const Vector3>(&v[3 * i]);
+        values[i] = Eigen::Map<const Vector3>(&v[3 * i]);
     }
+    return values;
+}
 
+
+void GreedySelection::refreshValues(
+    const ControlPoints& candidates, Communicator& communicator)
+{
+    values_ = selectedValues(candidates, communicator);
     system_->setValues(values_);
+}
+
+
+std::vector<RbfInterpolant> GreedySelection::interpolants(
+    const std::vector<ControlPoints>& sets, Communicator& communicator)
+{
+    std::vector<RbfInterpolant> result;
+    for (const ControlPoints& candidates : sets)
+    {
+        system_->setValues(selectedValues(candidates, communicator));
+        result.emplace_back(kernel_);
+        system_->solve(result.back());
+    }
+    system_->setValues(values_);
+    return result;
 }
 
 

@@ -171,6 +171,13 @@ public:
     // The outcome of the last selection
     const RbfInterpolant& interpolant() const { return interpolant_; }
 
+    // Interpolants of other values of the same candidates, several sets of
+    // them, by the points that are selected and the factors that are there. As
+    // the interpolant is linear in the values, with their derivatives it is the
+    // derivative. Collective.
+    std::vector<RbfInterpolant> interpolants(
+        const std::vector<ControlPoints>& sets, Communicator& communicator);
+
     // |C^T s - g| of this rank's candidates after the last selection [m]
     const std::vector<double>& errors() const { return errors_.norms; }
 
@@ -200,6 +207,8 @@ private:
         const Sweep& renew, const Observer& observer);
     void start(const ControlPoints& candidates, Communicator& communicator);
     void makeSystem(const ControlPoints& candidates, Communicator& c);
+    std::vector<Vector3>
+    selectedValues(const ControlPoints& candidates, Communicator& c) const;
     void refreshValues(const ControlPoints& candidates, Communicator& c);
     void sweep(const ControlPoints& candidates, const Sweep& renew);
     bool samples(bool renewed) const;

@@ -53,6 +53,22 @@ void RbfInterpolant::setPolynomial(
 }
 
 
+void RbfInterpolant::addPolynomial(
+    const PointCloud& points, const PointCloud::Leaf& leaf, Columns& sums) const
+{
+    if (!polynomial_)
+    {
+        return;
+    }
+    for (Index i = 0; i < leaf.count; ++i)
+    {
+        const Vector3 d =
+            points.sorted().row(leaf.begin + i).transpose() - origin_;
+        sums.row(i) += (offset_ + gradient_.transpose() * d).transpose();
+    }
+}
+
+
 Vectors RbfInterpolant::operator()(const PointCloud& points) const
 {
     Vectors s(points.size(), 3);
@@ -120,16 +136,7 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
             w.col(0).data(), w.col(1).data(), w.col(2).data()};
         addKernelSum(kernel_.type(), xs, size, cs, ws, groups, ss);
 
-        if (polynomial_)
-        {
-            for (Index i = 0; i < leaf.count; ++i)
-            {
-                const Vector3 d =
-                    points.sorted().row(leaf.begin + i).transpose() - origin_;
-                sums.row(i) +=
-                    (offset_ + gradient_.transpose() * d).transpose();
-            }
-        }
+        addPolynomial(points, leaf, sums);
 
         for (Index i = 0; i < leaf.count; ++i)
         {
@@ -137,6 +144,88 @@ Vectors RbfInterpolant::operator()(const PointCloud& points) const
         }
     }
 
+    return s;
+}
+
+
+std::vector<Vectors> RbfInterpolant::together(
+    const std::vector<RbfInterpolant>& fields, const PointCloud& points)
+{
+    std::vector<Vectors> s(fields.size(), Vectors(points.size(), 3));
+    if (fields.empty())
+    {
+        return s;
+    }
+    const RbfInterpolant& first = fields.front();
+    const Kernel& kernel = first.kernel_;
+    const double scale = 1 / kernel.supportRadius();
+    const Index n = first.centres_.rows();
+    const Eigen::RowVector3d from = n > 0
+        ? Eigen::RowVector3d(first.centres_.row(0))
+        : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+    const Columns scaled = scale * (first.centres_.rowwise() - from);
+    const double reach2 = 1 + 1e-12;
+
+    Columns c(n, 3), x;
+    std::vector<Columns> w(fields.size(), Columns(n, 3));
+    std::vector<Columns> sums(fields.size());
+    for (const PointCloud::Leaf& leaf : points.leaves())
+    {
+        PointCloud::Leaf box = leaf;
+        box.low = scale * (leaf.low - from.transpose());
+        box.high = scale * (leaf.high - from.transpose());
+
+        std::vector<CentreGroup> groups;
+        CentreGroup group = {0, 0, 0, 0};
+        for (Index j = 0; j < n; ++j)
+        {
+            const Vector3 centre = scaled.row(j).transpose();
+            if (!kernel.compact() || box.distance2(centre) < reach2)
+            {
+                c.row(group.end) = scaled.row(j);
+                for (std::size_t k = 0; k < fields.size(); ++k)
+                {
+                    w[k].row(group.end) = fields[k].weights_.row(j);
+                }
+                ++group.end;
+            }
+            if ((j + 1) % groupSize == 0 || j + 1 == n)
+            {
+                if (!group.empty())
+                {
+                    groups.push_back(group);
+                }
+                group.begin = group.end;
+            }
+        }
+
+        const Index size = leaf.end - leaf.begin;
+        x = points.sorted().middleRows(leaf.begin, size).rowwise() - from;
+        x *= scale;
+        std::vector<FieldSum> terms;
+        for (std::size_t k = 0; k < fields.size(); ++k)
+        {
+            sums[k] = Columns::Zero(size, 3);
+            terms.push_back(
+                {{w[k].col(0).data(), w[k].col(1).data(), w[k].col(2).data()},
+                 {sums[k].col(0).data(), sums[k].col(1).data(),
+                  sums[k].col(2).data()}});
+        }
+        const double* const xs[3] = {
+            x.col(0).data(), x.col(1).data(), x.col(2).data()};
+        const double* const cs[3] = {
+            c.col(0).data(), c.col(1).data(), c.col(2).data()};
+        addKernelSums(kernel.type(), xs, size, cs, terms, groups);
+
+        for (std::size_t k = 0; k < fields.size(); ++k)
+        {
+            fields[k].addPolynomial(points, leaf, sums[k]);
+            for (Index i = 0; i < leaf.count; ++i)
+            {
+                s[k].row(points.index()[leaf.begin + i]) = sums[k].row(i);
+            }
+        }
+    }
     return s;
 }
 

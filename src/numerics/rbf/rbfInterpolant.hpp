@@ -10,6 +10,8 @@
 #include "kernel.hpp"
 #include "pointCloud.hpp"
 
+#include <vector>
+
 namespace morph
 {
 
@@ -43,7 +45,17 @@ public:
     // s at a few points: n x 3 [m]
     Vectors operator()(const Vectors& points) const;
 
+    // Several interpolants with the same centres at all points of the cloud:
+    // the kernel is evaluated once. As by operator(), but for round-off
+    static std::vector<Vectors> together(
+        const std::vector<RbfInterpolant>& fields, const PointCloud& points);
+
 private:
+    // The polynomial at the points of a leaf
+    void addPolynomial(
+        const PointCloud& points, const PointCloud::Leaf& leaf,
+        Columns& sums) const;
+
     Kernel kernel_;
     Columns centres_;
     Columns weights_;

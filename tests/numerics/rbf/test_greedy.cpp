@@ -506,6 +506,42 @@ TEST(Greedy, scaledDisplacementsScaleTheWeightsAndAddNoPoint)
 }
 
 
+TEST(Greedy, interpolantsOfDerivativesAreDifferencesOfInterpolants)
+{
+    // The interpolant is linear in the values of the points that are there, and
+    // the selection itself is left as it was
+    Random random(70);
+    const ControlPoints candidates =
+        displaced(randomControlPoints(random, {3, 100, 50, 20}), wave);
+    for (const Polynomial polynomial : {Polynomial::none, Polynomial::linear})
+    {
+        Selected found(
+            Kernel(KernelType::wendlandC2, 0.8), polynomial, settingsOf(1e-2),
+            candidates);
+        const Columns w = found.s().weights();
+        SerialCommunicator alone;
+        const ControlPoints other = displaced(candidates, waveAndBump);
+        const std::vector<RbfInterpolant> both =
+            found.selection.interpolants({candidates, other}, alone);
+        EXPECT_TRUE(sameBits(both[0].weights(), w));
+        found.again(candidates);
+        EXPECT_TRUE(sameBits(found.s().weights(), w));
+
+        ControlPoints difference = other;
+        for (std::size_t i = 0; i < other.size(); ++i)
+        {
+            difference[i].value -= candidates[i].value;
+        }
+        const RbfInterpolant d =
+            found.selection.interpolants({difference}, alone)[0];
+        const Columns expected = both[1].weights() - both[0].weights();
+        EXPECT_TRUE(within(
+            "weights of a derivative",
+            (d.weights() - expected).norm() / both[1].weights().norm(), 1e-11));
+    }
+}
+
+
 TEST(Greedy, aNewDisplacementKeepsThePointsAndAddsWhereItDiffers)
 {
     for (const Polynomial polynomial : {Polynomial::none, Polynomial::linear})

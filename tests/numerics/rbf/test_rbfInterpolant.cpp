@@ -310,3 +310,41 @@ TEST(PointCloud, leavesHoldEveryPointOnceAndTheirBoxesEnclosePoints)
     }
     EXPECT_EQ(seen, std::vector<int>(x.rows(), 1));
 }
+
+
+TEST(RbfInterpolant, severalTogetherAreEachByItself)
+{
+    // To round-off as each alone, and to the bit whatever other points there
+    // are
+    for (const auto& [type, name] : kernelNames())
+    {
+        Random random(29);
+        const RbfInterpolant first = randomInterpolant(random, type, 0.9, 150);
+        std::vector<RbfInterpolant> fields(1, first);
+        for (int k = 1; k < 4; ++k)
+        {
+            RbfInterpolant other = first;
+            const RbfInterpolant some =
+                randomInterpolant(random, type, 0.9, 150);
+            other.set(first.centres(), some.weights());
+            fields.push_back(other);
+        }
+        fields[2].setPolynomial(
+            Vector3(1, 2, 3), Vector3(0.1, 0.2, 0.3),
+            Eigen::Matrix3d::Constant(0.4));
+        const Vectors x = randomPoints(random, 700);
+        const std::vector<Vectors> s =
+            RbfInterpolant::together(fields, PointCloud(x));
+        const std::vector<Vectors> few = RbfInterpolant::together(
+            fields, PointCloud(Vectors(x.middleRows(100, 37))));
+        ASSERT_EQ(s.size(), fields.size());
+        for (std::size_t k = 0; k < fields.size(); ++k)
+        {
+            const double scale = fields[k].weights().cwiseAbs().sum();
+            EXPECT_TRUE(within(
+                "several fields together, " + name,
+                (s[k] - fields[k](x)).cwiseAbs().maxCoeff() / scale, 1e-15));
+            EXPECT_TRUE(sameBits(few[k], Vectors(s[k].middleRows(100, 37))));
+        }
+    }
+}

@@ -124,6 +124,80 @@ void addKernelSum(
 }
 
 
+// Of a block of points, for one field: phi in columns of centres
+static inline __attribute__((always_inline)) void addField(
+    const double* __restrict__ phi, Index n, const double* wx, const double* wy,
+    const double* wz, double* __restrict__ sumX, double* __restrict__ sumY,
+    double* __restrict__ sumZ)
+{
+    double partX[blockSize] = {};
+    double partY[blockSize] = {};
+    double partZ[blockSize] = {};
+    for (Index j = 0; j < n; ++j)
+    {
+        const double* __restrict__ column = phi + j * blockSize;
+        for (Index i = 0; i < blockSize; ++i)
+        {
+            partX[i] += column[i] * wx[j];
+            partY[i] += column[i] * wy[j];
+            partZ[i] += column[i] * wz[j];
+        }
+    }
+    for (Index i = 0; i < blockSize; ++i)
+    {
+        sumX[i] += partX[i];
+        sumY[i] += partY[i];
+        sumZ[i] += partZ[i];
+    }
+}
+
+
+MORPH_MULTIVERSION
+static void addGroupOfFields(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const FieldSum* fields, std::size_t nFields,
+    Index begin, Index end)
+{
+    double phi[groupSize * blockSize];
+    radial::dispatch(
+        type, [&](auto formula) __attribute__((always_inline)) {
+            for (Index i = 0; i < nPoints; i += blockSize)
+            {
+                for (Index j = begin; j < end; ++j)
+                {
+                    const double centre[3] = {
+                        centres[0][j], centres[1][j], centres[2][j]};
+                    fillColumn(
+                        formula, points[0] + i, points[1] + i, points[2] + i,
+                        blockSize, centre, 1, phi + (j - begin) * blockSize);
+                }
+                for (std::size_t k = 0; k < nFields; ++k)
+                {
+                    const FieldSum& f = fields[k];
+                    addField(
+                        phi, end - begin, f.weights[0] + begin,
+                        f.weights[1] + begin, f.weights[2] + begin,
+                        f.sums[0] + i, f.sums[1] + i, f.sums[2] + i);
+                }
+            }
+        });
+}
+
+
+void addKernelSums(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const std::vector<FieldSum>& fields,
+    const std::vector<CentreGroup>& groups)
+{
+    for (const CentreGroup& group : groups)
+    {
+        addGroupOfFields(
+            type, points, nPoints, centres, fields.data(), fields.size(),
+            group.begin, group.end);
+    }
+}
+
+
 MORPH_MULTIVERSION
 static void fillMatrix(
     KernelType type, const double* const a[3], Index nA,

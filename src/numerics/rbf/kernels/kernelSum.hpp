@@ -53,6 +53,20 @@ void addKernelSum(
     const double* const centres[3], const double* const weights[3],
     const std::vector<CentreGroup>& groups, double* const sums[3]);
 
+// The weights of a field and its sums, n x 3 columns each
+struct FieldSum
+{
+    const double* weights[3];
+    double* sums[3];
+};
+
+// The same for several fields, whose kernel is evaluated once. The groups are
+// ranges of centres, without others
+void addKernelSums(
+    KernelType type, const double* const points[3], Index nPoints,
+    const double* const centres[3], const std::vector<FieldSum>& fields,
+    const std::vector<CentreGroup>& groups);
+
 // phi(|a_i - b_j|/r0) of all pairs (n x m) of positions in metres
 Matrix kernelMatrix(const Kernel& kernel, const Columns& a, const Columns& b);
 

@@ -3,39 +3,37 @@ SPDX-FileCopyrightText: 2026 The morphFoam authors
 SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
-#include "ffdMeasures.H"
+#include "shapeMeasures.H"
 #include "gatheredSurface.H"
 #include "IOmanip.H"
 #include "Pstream.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::ffdMeasures::ffdMeasures
+Foam::shapeMeasures::shapeMeasures
 (
-    ffdBoxes& boxes,
     const pointField& points,
-    const faceList& faces
+    const pointField& moved,
+    const faceList& faces,
+    const List<motionParameter>& parameters,
+    const std::function<tmp<vectorField>(const label)>& derivative
 )
 :
-    names_(boxes.parameterNames()),
-    values_(boxes.values())
+    parameters_(parameters)
 {
     const gatheredSurface surface(points, faces);
     closed_ = surface.closed();
     const morph::Triangles& triangles = surface.triangles();
-    const morph::Vectors after
-    (
-        surface.gather(points + boxes.displacement())
-    );
+    const morph::Vectors after(surface.gather(moved));
     before_ = morph::surfaceMeasures(surface.points(), triangles);
     after_ = morph::surfaceMeasures(after, triangles);
-    forAll(names_, i)
+    forAll(parameters_, i)
     {
         derivatives_.push_back
         (
             morph::surfaceMeasuresDerivative
             (
-                after, triangles, surface.gather(boxes.derivative(i)())
+                after, triangles, surface.gather(derivative(i)())
             )
         );
     }
@@ -44,7 +42,7 @@ Foam::ffdMeasures::ffdMeasures
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::ffdMeasures::writeColumns(Ostream& os, const string& prefix) const
+void Foam::shapeMeasures::writeColumns(Ostream& os, const string& prefix) const
 {
     const string centroid = prefix + (closed_ ? "volumeC" : "areaC");
     os  << ' ' << setw(18) << (prefix + "area").c_str();
@@ -60,7 +58,7 @@ void Foam::ffdMeasures::writeColumns(Ostream& os, const string& prefix) const
 }
 
 
-void Foam::ffdMeasures::writeRow
+void Foam::shapeMeasures::writeRow
 (
     Ostream& os,
     const morph::SurfaceMeasures& m
@@ -82,7 +80,7 @@ void Foam::ffdMeasures::writeRow
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::ffdMeasures::writeMeasures(Ostream& os) const
+void Foam::shapeMeasures::writeMeasures(Ostream& os) const
 {
     os  << "# shape";
     writeColumns(os, "");
@@ -93,18 +91,19 @@ void Foam::ffdMeasures::writeMeasures(Ostream& os) const
 }
 
 
-void Foam::ffdMeasures::writeDerivatives(Ostream& os) const
+void Foam::shapeMeasures::writeDerivatives(Ostream& os) const
 {
     os  << "# parameter             " << setw(18) << "value";
     writeColumns(os, "d");
-    forAll(names_, i)
+    for (label i = 0; i < parameters_.size(); ++i)
     {
-        os  << names_[i].c_str();
-        for (label n = names_[i].size(); n < 24; ++n)
+        const word& name = parameters_[i].name;
+        os  << name.c_str() << ' ';
+        for (label n = name.size() + 1; n < 24; ++n)
         {
             os  << ' ';
         }
-        os  << setw(18) << values_[i];
+        os  << setw(18) << parameters_[i].value;
         if (Pstream::master())
         {
             writeRow(os, derivatives_[i]);
