@@ -47,7 +47,8 @@ return ({
   wrong: [...document.querySelectorAll(".katex-error")].map(e => e.innerText),
   width: document.documentElement.scrollWidth,
   beyond: [...document.querySelectorAll("article *")].filter(
-    e => e.getBoundingClientRect().right > innerWidth + 1 && !scrolls(e))
+    e => e.getBoundingClientRect().right
+      > document.documentElement.clientWidth + 1 && !scrolls(e))
     .map(e => e.outerHTML.slice(0, 120)).slice(0, 3),
 });
 })()
