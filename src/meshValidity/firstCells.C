@@ -4,8 +4,10 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "firstCells.H"
+#include "emptyPolyPatch.H"
 #include "movedGeometry.H"
 #include "syncTools.H"
+#include "wedgePolyPatch.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -16,6 +18,7 @@ Foam::firstCells::firstCells
 )
 :
     mesh_(mesh),
+    points_(points),
     heights_(mesh.boundaryMesh().nNonProcessor())
 {
     const movedGeometry geometry(mesh, points);
@@ -42,6 +45,50 @@ Foam::firstCells::firstCells
 }
 
 
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::firstCells::leastOfCells(const boolList& points) const
+{
+    if (!returnReduce(points.found(true), orOp<bool>()))
+    {
+        return GREAT;
+    }
+    const movedGeometry geometry(mesh_, points_);
+    scalar least = GREAT;
+    forAll(mesh_.cells(), celli)
+    {
+        scalar largest = 0;
+        bool touches = false;
+        for (const label facei : mesh_.cells()[celli])
+        {
+            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+            const bool flat =
+                patchi >= 0
+             && (
+                    isA<emptyPolyPatch>(mesh_.boundaryMesh()[patchi])
+                 || isA<wedgePolyPatch>(mesh_.boundaryMesh()[patchi])
+                );
+            if (!flat)
+            {
+                largest = max(largest, mag(geometry.faceAreas()[facei]));
+            }
+            for (const label pointi : mesh_.faces()[facei])
+            {
+                touches = touches || points[pointi];
+            }
+        }
+        if (touches)
+        {
+            least = min
+            (
+                least, geometry.cellVolumes()[celli]/max(largest, VSMALL)
+            );
+        }
+    }
+    return least;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::scalar Foam::firstCells::least(const labelUList& meshPoints) const
@@ -58,6 +105,7 @@ Foam::scalar Foam::firstCells::least(const labelUList& meshPoints) const
     syncTools::syncPointList(mesh_, asked, orEqOp<bool>(), false);
 
     scalar height = GREAT;
+    boolList onPatch(mesh_.nPoints(), false);
     forAll(heights_, patchi)
     {
         const labelList& points = mesh_.boundaryMesh()[patchi].meshPoints();
@@ -66,10 +114,16 @@ Foam::scalar Foam::firstCells::least(const labelUList& meshPoints) const
             if (asked[points[i]])
             {
                 height = min(height, heights_[patchi][i]);
+                onPatch[points[i]] = true;
             }
         }
     }
-    return returnReduce(height, minOp<scalar>());
+    syncTools::syncPointList(mesh_, onPatch, orEqOp<bool>(), false);
+    forAll(asked, pointi)
+    {
+        asked[pointi] = asked[pointi] && !onPatch[pointi];
+    }
+    return returnReduce(min(height, leastOfCells(asked)), minOp<scalar>());
 }
 
 

@@ -5,10 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "rbfField.H"
 #include "eigenFields.H"
-#include "foamCompat.H"
 #include "pstreamCommunicator.H"
-#include "StringStream.H"
-#include "Tuple2.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -37,9 +34,6 @@ static const morph::Index linearPoints = 4;
 static const label mostRenewals = 50;
 static const scalar settledDerivative = 1e-12;
 
-// Of what is prescribed, how far a field may reach without a word
-static const scalar mostOvershoot = 2;
-
 } // End namespace Foam
 
 
@@ -51,7 +45,8 @@ Foam::rbfField::rbfField(rbfMotionProblem& problem, const label regioni)
     region_(regioni),
     cloud_(asVectors(problem.reduced().positions(regioni))),
     linear_(false),
-    warned_(false)
+    rough_(false),
+    surfaceRadius_(0)
 {}
 
 
@@ -68,12 +63,11 @@ morph::Vectors Foam::rbfField::atCandidates
 
 void Foam::rbfField::makeSelection(morph::Communicator& communicator)
 {
-    exactSurface_.reset();
     selection_ = std::make_shared<morph::GreedySelection>
     (
         problem_.kernel(),
         problem_.settings().polynomial,
-        problem_.settings().selection,
+        problem_.selection(region_),
         problem_.images().inReach()
     );
     if (!restored_.empty())
@@ -121,22 +115,13 @@ void Foam::rbfField::correct
     morph::Vectors& s
 )
 {
-    const scalar correctionRadius = problem_.correctionRadius(region_);
+    const scalar correctionRadius =
+        problem_.correctionRadius(region_, rough_);
     if (correctionRadius <= 0)
     {
         return;
     }
-    if (!exactSurface_)
-    {
-        exactSurface_.reset
-        (
-            new morph::ExactSurface
-            (
-                correctionRadius, problem_.images().inReach()
-            )
-        );
-        positions_ = problem_.reduced().positions(region_);
-    }
+    updateSurface(correctionRadius);
     exactSurface_->add
     (
         candidates().conditions,
@@ -170,7 +155,6 @@ bool Foam::rbfField::selectLinear
     {
         morph::SelectionSettings few(problem_.settings().selection);
         few.maxPoints = min(few.maxPoints, linearPoints);
-        exactSurface_.reset();
         selection_ = std::make_shared<morph::GreedySelection>
         (
             problem_.kernel(), morph::Polynomial::linear, few
@@ -200,7 +184,11 @@ morph::SelectionResult Foam::rbfField::select
     {
         return result;
     }
-    if (!selection_)
+    if (selection_)
+    {
+        selection_->setTolerances(problem_.selection(region_));
+    }
+    else
     {
         alignDirections(communicator);
         makeSelection(communicator);
@@ -225,127 +213,25 @@ morph::SelectionResult Foam::rbfField::select
 }
 
 
-Foam::scalar Foam::rbfField::largest
-(
-    const morph::Vectors& displacements,
-    point& where
-) const
+void Foam::rbfField::updateSurface(const scalar radius)
 {
-    Tuple2<scalar, point> farthest(0, point::zero);
-    const labelList& points = problem_.reduced().independent(region_);
-    forAll(points, i)
-    {
-        const scalar distance = displacements.row(i).norm();
-        if (distance > farthest.first())
-        {
-            farthest = Tuple2<scalar, point>
-            (
-                distance, problem_.points0()[points[i]]
-            );
-        }
-    }
-    List<Tuple2<scalar, point>> all(Pstream::nProcs());
-    all[Pstream::myProcNo()] = farthest;
-    foamCompat::allGatherList(all);
-    for (const Tuple2<scalar, point>& one : all)
-    {
-        const bool first =
-            one.first() == farthest.first()
-         && before(one.second(), farthest.second());
-        if (one.first() > farthest.first() || first)
-        {
-            farthest = one;
-        }
-    }
-    where = farthest.second();
-    return farthest.first();
-}
-
-
-Foam::string Foam::rbfField::rougherKernel(const scalar allowed) const
-{
-    const morph::Kernel rough
-    (
-        morph::KernelType::wendlandC0, problem_.radius()
-    );
-    if (problem_.settings().kernel == rough.type())
-    {
-        return "";
-    }
-    morph::GreedySelection selection
-    (
-        rough,
-        morph::Polynomial::none,
-        problem_.settings().selection,
-        problem_.images().inReach()
-    );
-    pstreamCommunicator communicator;
-    selection.select(candidates().conditions, communicator);
-    point where;
-    const scalar distance =
-        largest(selection.interpolant()(cloud_), where);
-    if (distance > allowed)
-    {
-        return "";
-    }
-    OStringStream remedy;
-    remedy.precision(3);
-    remedy << "Use 'kernel wendlandC0', with which they go no further than "
-        << distance << " m, or m";
-    return remedy.str();
-}
-
-
-void Foam::rbfField::warnOfOvershoot(const morph::Vectors& displacements)
-{
-    const scalar told = problem_.controlPoints().largestValue(region_);
-    point where;
-    const scalar reached = largest(displacements, where);
-    if (warned_ || linear_ || reached <= mostOvershoot*told)
+    const morph::Vectors centres(candidates().positions());
+    const bool same =
+        exactSurface_
+     && surfaceRadius_ == radius
+     && surfaceCentres_.rows() == centres.rows()
+     && surfaceCentres_ == centres;
+    if (returnReduce(same, andOp<bool>()))
     {
         return;
     }
-    warned_ = true;
-
-    // The two that contradict most: by difference over distance
-    const std::vector<morph::Vector3> x(selection_->selectedPositions());
-    morph::Vectors at(x.size(), 3);
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        at.row(i) = x[i].transpose();
-    }
-    const morph::Vectors s = selection_->interpolant()(at);
-    scalar steepest = 0;
-    std::size_t first = 0;
-    std::size_t second = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-        for (std::size_t j = 0; j < i; ++j)
-        {
-            const scalar slope = (s.row(i) - s.row(j)).norm()
-               /max((x[i] - x[j]).norm(), VSMALL);
-            if (slope > steepest)
-            {
-                steepest = slope;
-                first = i;
-                second = j;
-            }
-        }
-    }
-    const string rougher(rougherKernel(mostOvershoot*told));
-    OStringStream message;
-    message.precision(3);
-    message
-        << "Points move by up to " << reached << " m, at " << where
-        << ", where no control point moves by more than " << told << " m" << nl
-        << "    The control points at " << toFoam(x[first]) << " and "
-        << toFoam(x[second]) << ", " << (x[first] - x[second]).norm()
-        << " m apart, move by " << toFoam(s.row(first).transpose()) << " and "
-        << toFoam(s.row(second).transpose()) << nl
-        << "    " << (rougher.empty() ? "M" : rougher.c_str())
-        << "ove them less differently: let one of their patches slide, or give"
-        << " the step between them a gradual displacement";
-    WarningInFunction << message.str().c_str() << endl;
+    exactSurface_.reset
+    (
+        new morph::ExactSurface(radius, problem_.images().inReach())
+    );
+    surfaceRadius_ = radius;
+    surfaceCentres_ = centres;
+    positions_ = problem_.reduced().positions(region_);
 }
 
 
@@ -381,6 +267,7 @@ void Foam::rbfField::select(rbfMotion& motion, const bool anew)
     try
     {
         const morph::SelectionResult result = select(communicator);
+        rough_ = result.rough;
         motion.add
         (
             region_,
@@ -402,7 +289,6 @@ void Foam::rbfField::select(rbfMotion& motion, const bool anew)
 void Foam::rbfField::propagate(vectorField& inPlane)
 {
     morph::Vectors s = selection_->interpolant()(cloud_);
-    warnOfOvershoot(s);
     pstreamCommunicator communicator;
     correct
     (

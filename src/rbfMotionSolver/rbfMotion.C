@@ -43,7 +43,7 @@ void Foam::rbfMotion::add
     (
         {
             region, result, result.added > 0, nSelected, nSelected, report,
-            made, candidates, collectives, bytes
+            made, made, candidates, collectives, bytes
         }
     );
 }

@@ -17,10 +17,6 @@ namespace Foam
 // distance between selected points, the length scale of the remaining error
 static const scalar correctionReach = 0.1;
 
-// An error above this part of the height of a first cell is one that the cell
-// notices
-static const scalar noticed = 0.1;
-
 } // End namespace Foam
 
 
@@ -52,11 +48,7 @@ Foam::rbfMotionProblem::rbfMotionProblem
     ),
     radius_(settings, formerRadius),
     span_(boundBox(points0, true).mag()),
-    corrects_
-    (
-        reduced_.nRegions(),
-        settings.surfaceCorrection == rbfMotionSettings::correctionPolicy::yes
-    )
+    accuracy_(mesh, points0, settings, reduced_.nRegions())
 {}
 
 
@@ -91,56 +83,6 @@ Foam::labelHashSet Foam::rbfMotionProblem::slidingPatchesOf
 }
 
 
-void Foam::rbfMotionProblem::findFirstCellHeight()
-{
-    const firstCells cells(mesh_, points0_);
-    firstCellHeight_.setSize(reduced_.nRegions());
-    forAll(firstCellHeight_, regioni)
-    {
-        firstCellHeight_[regioni] =
-            cells.least(controlPoints_.candidates(regioni).meshPoints);
-    }
-}
-
-
-void Foam::rbfMotionProblem::updateCorrection()
-{
-    typedef rbfMotionSettings::correctionPolicy policy;
-    if
-    (
-        settings_.surfaceCorrection != policy::automatic
-     || settings_.selection.all
-    )
-    {
-        return;
-    }
-    forAll(corrects_, regioni)
-    {
-        if (!moves(regioni))
-        {
-            corrects_[regioni] = false;
-            continue;
-        }
-        if (firstCellHeight_.empty())
-        {
-            findFirstCellHeight();
-        }
-        const scalar tolerance =
-            settings_.selection.tolerance
-           *controlPoints_.largestValue(regioni);
-        const scalar height = firstCellHeight_[regioni];
-        const bool former = corrects_[regioni];
-        corrects_[regioni] = tolerance > noticed*height;
-        if (corrects_[regioni] && !former)
-        {
-            Info<< "rbfMotionSolver: the first cells, " << height
-                << " m high, would notice the tolerance of " << tolerance
-                << " m: surfaceCorrection is on" << endl;
-        }
-    }
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::labelList Foam::rbfMotionProblem::staying() const
@@ -157,10 +99,11 @@ Foam::labelList Foam::rbfMotionProblem::staying() const
 
 Foam::scalar Foam::rbfMotionProblem::correctionRadius
 (
-    const label regioni
+    const label regioni,
+    const bool rough
 ) const
 {
-    return corrects_[regioni] ? correctionReach*radius() : 0;
+    return accuracy_.corrects(regioni, rough) ? correctionReach*radius() : 0;
 }
 
 
@@ -177,7 +120,12 @@ Foam::rbfMotionProblem::change Foam::rbfMotionProblem::update
     {
         controlPoints_.update(rebuild);
     }
-    updateCorrection();
+    boolList moving(reduced_.nRegions());
+    forAll(moving, regioni)
+    {
+        moving[regioni] = moves(regioni);
+    }
+    accuracy_.update(controlPoints_, moving);
     return changed;
 }
 
@@ -306,10 +254,25 @@ bool Foam::rbfMotionProblem::isValid(const vectorField& displacement) const
 Foam::string Foam::rbfMotionProblem::remedy() const
 {
     OStringStream remedy;
+    if (settings_.subStepsGiven && settings_.subSteps > 0)
+    {
+        remedy
+            << "Leave out 'subSteps', which is " << settings_.subSteps
+            << ": as many are made then as a valid mesh needs, up to 32." << nl
+            << "    Or make";
+    }
+    else
+    {
+        remedy
+            << (
+                   settings_.subSteps == 0
+                 ? "More steps than one did not help. Make"
+                 : "Make"
+               );
+    }
     remedy
-        << "Make the motion smaller, the support radius (" << radius()
-        << " m) larger, let more patches slide," << nl
-        << "    or move in several steps ('subSteps auto')";
+        << " the motion smaller, or let patches slide that are fixed or told to"
+        << " move beside it";
     return remedy.str();
 }
 

@@ -297,6 +297,8 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
         dict.found("supportRadiusFactor") ? 0 : 0.5;
 
     settings.selection = readSelection(dict);
+    settings.toleranceGiven =
+        dict.subOrEmptyDict("greedy").found("tolerance");
     settings.surfaceCorrection = readCorrection(dict);
     settings.images =
     {
@@ -327,7 +329,17 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
     settings.featureAngle = degToRad(degrees);
 
     settings.onInvalidMesh = motionLimiter::readPolicy(dict);
-    settings.subSteps = readCountOrAuto(dict, "subSteps", 1);
+    settings.optimise = optimiseSettings::readFrom(dict, "optimise");
+    settings.subSteps = readCountOrAuto
+    (
+        dict,
+        "subSteps",
+        settings.onInvalidMesh == motionLimiter::policy::ignore
+     || !settings.optimise.never()
+      ? 1
+      : 0
+    );
+    settings.subStepsGiven = dict.found("subSteps");
     if (settings.subSteps > mostSubSteps)
     {
         FatalIOErrorInFunction(dict)
@@ -336,7 +348,6 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
             << "    Give at most " << mostSubSteps << ", or auto" << nl
             << exit(FatalIOError);
     }
-    settings.optimise = optimiseSettings::readFrom(dict, "optimise");
     return settings;
 }
 

@@ -77,7 +77,8 @@ Foam::rbfMotionSolver::rbfMotionSolver
     formerIndex_(-1),
     nSteps_(1),
     fraction_(1),
-    wasOptimised_(false)
+    wasOptimised_(false),
+    toldOfSteps_(false)
 {
     pointDisplacementField::registerAndRead(pointDisplacement_);
     initialise();
@@ -100,7 +101,8 @@ Foam::rbfMotionSolver::rbfMotionSolver
     formerIndex_(-1),
     nSteps_(1),
     fraction_(1),
-    wasOptimised_(false)
+    wasOptimised_(false),
+    toldOfSteps_(false)
 {
     foamCompat::registerObject(pointDisplacement_);
     initialise();
@@ -302,16 +304,36 @@ Foam::rbfMotion Foam::rbfMotionSolver::move()
         return several.move(n, check);
     }
 
+    // Where one step is valid this costs nothing: that is checked in any case
     const bool automatic = n == 0;
-    rbfMotion motion(oneStep_->move(check || automatic));
+    const rbfMotion one(oneStep_->move(check || automatic));
+    if (!automatic || one.complete())
+    {
+        return one;
+    }
+    rbfMotion motion(one);
     for
     (
         label more = 2;
-        automatic && !motion.complete() && more <= maxSubSteps;
+        !motion.complete() && more <= maxSubSteps;
         more *= 2
     )
     {
+        const motionTimes former(motion.times);
         motion = several.move(more, check || more < maxSubSteps);
+        motion.times += former;
+    }
+    if (!motion.complete() && !settings_.subStepsGiven)
+    {
+        // How far it goes is said of what was asked for: one step
+        return one;
+    }
+    if (!settings_.subStepsGiven && !toldOfSteps_)
+    {
+        toldOfSteps_ = true;
+        Info<< "rbfMotionSolver: one step would make the mesh invalid: the"
+            << " motion is made in sub-steps. 'subSteps 1' makes that an error"
+            << endl;
     }
     return motion;
 }

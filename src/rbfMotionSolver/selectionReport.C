@@ -180,12 +180,13 @@ void Foam::selectionReport::write
         {
             summary(made.worst);
             warnOfTolerance(made.worst, problem.radius());
-            if (problem.correctionRadius(made.region) == 0)
+            if (problem.correctionRadius(made.region, made.worst.rough) == 0)
             {
                 warnOfFirstCells(problem, made);
             }
         }
     }
+    gaps_.warn(problem, motion);
 }
 
 

@@ -118,12 +118,23 @@ void Foam::subSteppedMotion::addStep
     const morph::Vectors reached = reachedByCandidates(regioni, motion);
     controlPoints.setDirections(regioni, reached);
 
+    // Steps are for motions that shrink cells far below the height for which
+    // a tolerance of the mesh was right
+    const rbfMotionSettings& entries = problem_.settings();
+    const bool mayShrink =
+        motion.nSteps > 1
+     && !entries.toleranceGiven
+     && !entries.selection.all
+     && entries.surfaceCorrection
+     == rbfMotionSettings::correctionPolicy::automatic;
+
     const morph::SubStepSettings settings
     {
         problem_.kernel(),
         problem_.settings().polynomial,
-        problem_.settings().selection,
-        problem_.correctionRadius(regioni),
+        problem_.selection(regioni),
+        problem_.correctionRadius(regioni, mayShrink),
+        problem_.correctionRadius(regioni, true),
         part.images
     };
     pstreamCommunicator communicator;

@@ -56,9 +56,13 @@ def vectors(text):
     ]
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_the_warning_names_two_points_and_a_remedy_that_works(tmp_path, ranks):
-    case = gap_case(tmp_path / "before", "onInvalidMesh ignore;")
+@pytest.mark.parametrize(
+    "ranks, steps", [(1, ""), (2, ""), (1, "subSteps 2;"), (2, "subSteps 3;")]
+)
+def test_the_warning_names_two_points_and_a_remedy_that_works(
+    tmp_path, ranks, steps
+):
+    case = gap_case(tmp_path / "before", "onInvalidMesh ignore;" + steps)
     if ranks > 1:
         case.decompose((1, 1, ranks))
     output = case.run("moveDynamicMesh", ranks=ranks)
@@ -104,6 +108,29 @@ def test_no_kernel_is_offered_that_would_not_help(tmp_path):
     )
     assert "Points move by up to 0.59" in output
     assert "wendlandC0" not in output and "Move them less" in output
+
+
+def test_a_rotation_by_ninety_degrees_is_no_gap(tmp_path):
+    # A body of a third of the box: any two of its points differ by at most
+    # sqrt(2) times their distance
+    body = " ".join(
+        f"({0.5+0.2*np.cos(a)!r} 0 {0.5+0.1*np.sin(a)!r})"
+        for a in np.linspace(0, 2 * np.pi, 25)[:-1]
+    )
+    case = rbf_case(
+        tmp_path,
+        patches=FLAT,
+        cells=(10, 1, 10),
+        coeffs="supportRadius 20; onInvalidMesh ignore;"
+        + groups(
+            body=f"type moving; points ({body}); displacement {{ type solidBody;"
+            " solidBodyMotionFunction axisRotationMotion;"
+            " axisRotationMotionCoeffs"
+            " { origin (0.5 0 0.5); radialVelocity (0 90 0); } }",
+            far="type fixed; patches (xMin xMax zMin zMax);",
+        ),
+    )
+    assert "Points move by up to" not in case.run("moveDynamicMesh")
 
 
 def test_a_motion_without_a_gap_is_not_warned_of(tmp_path):

@@ -132,6 +132,7 @@ def test_a_turning_body_restarts_to_the_last_bit(tmp_path):
 @pytest.mark.parametrize(
     "settings",
     [
+        "supportRadius 1;",
         "supportRadius 1; selection all;",
         "supportRadiusFactor 4; greedy { tolerance 1e-2; }",
         "kernel thinPlate; greedy { tolerance 1e-2; }",

@@ -63,7 +63,7 @@ def ends_where_it_should(case, points, distance):
 
 
 def test_auto_takes_as_many_steps_as_a_valid_mesh_needs(tmp_path):
-    one = rbf_case(tmp_path / "one", coeffs=FAR, cells=CELLS)
+    one = rbf_case(tmp_path / "one", coeffs="subSteps 1;" + FAR, cells=CELLS)
     assert "makes the mesh invalid" in one.run("moveDynamicMesh", status=1)
 
     case = rbf_case(
@@ -73,6 +73,12 @@ def test_auto_takes_as_many_steps_as_a_valid_mesh_needs(tmp_path):
     assert n in (2, 4, 8, 16, 32)
     ends_where_it_should(case, points_at(case, "1"), 0.42)
     assert "Mesh OK" in case.run("checkMesh", "-latestTime")
+
+    # So it does without being asked to, and says so
+    default = rbf_case(tmp_path / "default", coeffs=FAR, cells=CELLS)
+    output = default.run("moveDynamicMesh")
+    assert output.count("one step would make the mesh invalid") == 1
+    assert np.array_equal(points_at(default, "1"), points_at(case, "1"))
 
     # As many as that and no fewer
     fixed = rbf_case(
@@ -97,7 +103,23 @@ def test_a_motion_that_one_step_can_make_is_made_in_one(tmp_path):
     assert np.array_equal(points_at(one, "1"), points_at(auto, "1"))
 
 
-def test_sub_steps_are_the_same_on_any_number_of_ranks(tmp_path):
+def test_a_motion_that_no_number_of_steps_makes_is_refused_as_of_one(
+    tmp_path,
+):
+    said = []
+    for name, entry in (("one", "subSteps 1;"), ("default", "")):
+        case = rbf_case(tmp_path / name, coeffs=entry + TOO_FAR, cells=CELLS)
+        output = case.run("moveDynamicMesh", status=1)
+        assert ("Leave out 'subSteps'" in output) == (name == "one")
+        assert ("More steps than one did not help" in output) == (
+            name == "default"
+        )
+        said.append(re.search(r"valid up to the fraction (\S+) of", output)[1])
+    assert said[0] == said[1]
+
+
+@pytest.mark.parametrize("entry", ["subSteps auto;", ""])
+def test_sub_steps_are_the_same_on_any_number_of_ranks(tmp_path, entry):
     results = []
     for ranks, split in (
         (1, None),
@@ -105,9 +127,7 @@ def test_sub_steps_are_the_same_on_any_number_of_ranks(tmp_path):
         (3, (1, 3, 1)),
         (4, (2, 1, 2)),
     ):
-        case = rbf_case(
-            tmp_path / str(ranks), coeffs="subSteps auto;" + FAR, cells=CELLS
-        )
+        case = rbf_case(tmp_path / str(ranks), coeffs=entry + FAR, cells=CELLS)
         if split:
             case.decompose(split)
         case.run("moveDynamicMesh", ranks=ranks)
@@ -131,9 +151,10 @@ def test_a_motion_that_returns_brings_the_mesh_back(tmp_path):
     )
 
 
-def test_a_restart_continues_the_uninterrupted_run(tmp_path):
-    coeffs = "subSteps auto; supportRadius 1.2;" + middle(
-        [(0, 0), (1, 0.35), (2, 0.42)]
+@pytest.mark.parametrize("entry", ["subSteps auto;", ""])
+def test_a_restart_continues_the_uninterrupted_run(tmp_path, entry):
+    coeffs = (
+        entry + "supportRadius 1.2;" + middle([(0, 0), (1, 0.35), (2, 0.42)])
     )
     whole = rbf_case(
         tmp_path / "whole", coeffs=coeffs, cells=CELLS, control={"end": 2}

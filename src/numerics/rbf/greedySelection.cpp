@@ -137,6 +137,16 @@ GreedySelection::GreedySelection(
 }
 
 
+void GreedySelection::setTolerances(const SelectionSettings& settings)
+{
+    settings_.tolerance = settings.tolerance;
+    settings_.keep = settings.keep;
+    settings_.roughTolerance = settings.roughTolerance;
+    settings_.roughPoints = settings.roughPoints;
+    settings_.roughShare = settings.roughShare;
+}
+
+
 Vectors GreedySelection::residuals(const ControlPoints& candidates) const
 {
     Vectors r(candidates.size(), 3);
@@ -276,7 +286,7 @@ SelectionResult GreedySelection::run(
 {
     SelectionResult result;
     result.largestDisplacement = largestValue(candidates, communicator);
-    result.tolerance = settings_.tolerance * result.largestDisplacement;
+    const double n = communicator.sum({double(candidates.size())})[0];
 
     {
         Stopwatch time(result.solveTime);
@@ -286,6 +296,7 @@ SelectionResult GreedySelection::run(
         }
         else
         {
+            result.keep = settings_.keep;
             refreshValues(candidates, communicator);
         }
         system_->solve(interpolant_);
@@ -293,6 +304,7 @@ SelectionResult GreedySelection::run(
 
     const Index before = origins_.size();
     const bool renewed = bool(renew);
+    updateTolerance(n, result);
     std::vector<double> history;
 
     set_.reset();
@@ -321,7 +333,8 @@ SelectionResult GreedySelection::run(
         }
         settles =
             settles && approach(candidates, communicator, history, result);
-        more = settles || addPoints(candidates, communicator, renewed, result);
+        more =
+            settles || addPoints(candidates, communicator, renewed, n, result);
         if (samples(renewed))
         {
             more = nextSet(candidates, communicator, more, result.tolerance);
@@ -340,7 +353,7 @@ SelectionResult GreedySelection::run(
 
 bool GreedySelection::addPoints(
     const ControlPoints& candidates, Communicator& communicator, bool renewed,
-    SelectionResult& result)
+    double total, SelectionResult& result)
 {
     const double least =
         settings_.all ? -1 : set_.coarseness() * result.tolerance;
@@ -351,10 +364,12 @@ bool GreedySelection::addPoints(
         double outside = 0;
         list = worstCandidate(candidates, errors_, least, communicator);
         const Index room = settings_.maxPoints - Index(origins_.size());
-        if (list.empty() || room <= 0)
+        if (list.empty() || room <= 0
+            || list.front().error <= result.keep * least)
         {
             return false;
         }
+        result.keep = 1;
         const Index most = std::min(room, pointsPerSweep());
         if (most > 1)
         {
@@ -385,7 +400,19 @@ bool GreedySelection::addPoints(
         refreshValues(candidates, communicator);
     }
     system_->solve(interpolant_);
+    updateTolerance(total, result);
     return true;
+}
+
+
+void GreedySelection::updateTolerance(
+    double total, SelectionResult& result) const
+{
+    const Index n = origins_.size();
+    result.rough = settings_.roughTolerance > settings_.tolerance
+        && n > settings_.roughPoints && n > settings_.roughShare * total;
+    result.tolerance = result.largestDisplacement
+        * (result.rough ? settings_.roughTolerance : settings_.tolerance);
 }
 
 

@@ -45,6 +45,18 @@ struct SelectionSettings
     // displacement of all candidates
     double tolerance = 1e-5;
 
+    // A selection that is kept from before grows only where an error exceeds
+    // so many tolerances, and then to the tolerance: values that change a
+    // little do not add points in each step
+    double keep = 1;
+
+    // Of a rough field, which most candidates would have to carry: once more
+    // than this number and this share of the candidates are selected, the
+    // tolerance is the rough one, if that is larger
+    double roughTolerance = 0;
+    Index roughPoints = 0;
+    double roughShare = 1;
+
     // Most points to select
     Index maxPoints = std::numeric_limits<Index>::max();
 
@@ -74,6 +86,9 @@ struct SelectionResult
     double largestError = 0;
     double tolerance = 0;
 
+    // Is it the rough one?
+    bool rough = false;
+
     // Expected round-off in the interpolated displacement,
     // machine epsilon x sum |gamma| [m]
     double roundOff = 0;
@@ -92,7 +107,10 @@ struct SelectionResult
     double listTime = 0;
     double solveTime = 0;
 
-    bool converged() const { return largestError <= tolerance; }
+    // Tolerances that the error may reach before points are added
+    double keep = 1;
+
+    bool converged() const { return largestError <= keep * tolerance; }
 };
 
 
@@ -168,6 +186,9 @@ public:
         const std::vector<Vector3>& positions, const ControlPoints& candidates,
         Communicator& communicator);
 
+    // Of selections to come. Tolerances alone may differ from those before
+    void setTolerances(const SelectionSettings& settings);
+
     // The outcome of the last selection
     const RbfInterpolant& interpolant() const { return interpolant_; }
 
@@ -215,10 +236,12 @@ private:
     bool nextSet(
         const ControlPoints& candidates, Communicator& communicator, bool added,
         double tolerance);
+    // total: of the candidates of all ranks
+    void updateTolerance(double total, SelectionResult& result) const;
     void appendBlocks(const std::vector<Candidate>& points, int rank);
     bool addPoints(
         const ControlPoints& candidates, Communicator& communicator,
-        bool renewed, SelectionResult& result);
+        bool renewed, double total, SelectionResult& result);
     bool approach(
         const ControlPoints& candidates, Communicator& communicator,
         std::vector<double>& history, SelectionResult& result);

@@ -57,9 +57,11 @@ SubStep subStep(
     }
 
     step.displacements = selection->interpolant()(PointCloud(positions));
-    if (settings.correctionRadius > 0)
+    const double radius =
+        step.result.rough ? settings.roughRadius : settings.correctionRadius;
+    if (radius > 0)
     {
-        ExactSurface correction(settings.correctionRadius, settings.images);
+        ExactSurface correction(radius, settings.images);
         correction.add(
             part, selection->residuals(part), communicator, positions,
             step.displacements);

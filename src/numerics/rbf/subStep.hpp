@@ -23,6 +23,9 @@ struct SubStepSettings
     // (exactSurface.hpp)
     double correctionRadius;
 
+    // The same where a rough tolerance of the selection has to do
+    double roughRadius;
+
     ImageGroup images = ImageGroup();
 };
 

@@ -163,37 +163,55 @@ SurfaceCorrection::Reach::Level SurfaceCorrection::reachAt(
     std::vector<std::int32_t>& near) const
 {
     const Kernel kernel(KernelType::wendlandC2, level.radius);
+    // All points of a cell have the same cells around them
+    struct Around
+    {
+        bool near = false;
+        std::vector<Index> centres;
+    };
+    std::unordered_map<Cell, Around, Hash> around;
+    const auto aroundOf = [&](const Vector3& x) -> const Around&
+    {
+        const auto place = around.emplace(cellOf(x, level.radius), Around());
+        Around& here = place.first->second;
+        if (place.second)
+        {
+            cellsAround(
+                level.all, x, level.radius,
+                [&](const std::vector<Index>&) { here.near = true; });
+            cellsAround(
+                level.grid, x, level.radius,
+                [&](const std::vector<Index>& there) {
+                    here.centres.insert(
+                        here.centres.end(), there.begin(), there.end());
+                });
+        }
+        return here;
+    };
+
     Reach::Level reach;
     std::vector<std::int32_t> still;
     for (const std::int32_t i : near)
     {
         const Vector3 x = points.row(i);
-        bool isNear = false;
-        cellsAround(
-            level.all, x, level.radius,
-            [&](const std::vector<Index>&) { isNear = true; });
-        if (!isNear)
+        const Around& here = aroundOf(x);
+        if (!here.near)
         {
             continue;
         }
         still.push_back(i);
 
         const std::size_t begin = reach.centres.size();
-        cellsAround(
-            level.grid, x, level.radius,
-            [&](const std::vector<Index>& there)
+        for (const Index j : here.centres)
+        {
+            const double value =
+                kernel((centres_.row(j).transpose() - x).norm());
+            if (value != 0)
             {
-                for (const Index j : there)
-                {
-                    const double value =
-                        kernel((centres_.row(j).transpose() - x).norm());
-                    if (value != 0)
-                    {
-                        reach.centres.push_back(j);
-                        reach.values.push_back(value);
-                    }
-                }
-            });
+                reach.centres.push_back(j);
+                reach.values.push_back(value);
+            }
+        }
         if (reach.centres.size() > begin)
         {
             reach.points.push_back(i);

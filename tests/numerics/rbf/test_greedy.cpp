@@ -132,7 +132,7 @@ void expectHonest(
     EXPECT_EQ(r.largestDisplacement, largestDisplacement(candidates));
     EXPECT_EQ(r.selected, Index(selected.selection.selected().size()));
     EXPECT_EQ(r.selected, selected.s().centres().rows());
-    EXPECT_EQ(r.converged(), r.largestError <= r.tolerance);
+    EXPECT_EQ(r.converged(), r.largestError <= r.keep * r.tolerance);
 }
 
 
@@ -585,6 +585,83 @@ TEST(Greedy, aNewDisplacementKeepsThePointsAndAddsWhereItDiffers)
         EXPECT_TRUE(found.result.converged());
         expectHonest(found, candidates, polynomial);
     }
+}
+
+
+// By definition of SelectionSettings: nothing is added while no error exceeds
+// so many tolerances, and then until none exceeds one
+TEST(Greedy, aSelectionIsKeptUntilAnErrorExceedsSoManyTolerances)
+{
+    Random random(12);
+    const Kernel kernel(KernelType::wendlandC2, 1);
+    const ControlPoints candidates = box(random, 400);
+    const SelectionSettings settings = settingsOf(1e-3);
+    Selected found(kernel, Polynomial::none, settings, candidates);
+    const ControlPoints changed = displaced(candidates, waveAndBump);
+
+    // The error in tolerances that the new values leave
+    SelectionSettings loose = settings;
+    loose.keep = 1e9;
+    found.selection.setTolerances(loose);
+    found.again(changed);
+    EXPECT_EQ(found.result.added, 0);
+    EXPECT_TRUE(found.result.converged());
+    const double ratio = found.result.largestError / found.result.tolerance;
+    ASSERT_GT(ratio, 2);
+
+    for (const double keep : {1.01 * ratio, 0.99 * ratio})
+    {
+        SelectionSettings some = settings;
+        some.keep = keep;
+        found.selection.setTolerances(some);
+        found.again(changed);
+        expectHonest(found, changed);
+        EXPECT_TRUE(found.result.converged());
+        EXPECT_EQ(found.result.added > 0, keep < ratio);
+        EXPECT_EQ(
+            found.result.largestError <= found.result.tolerance, keep < ratio);
+    }
+
+    // A new selection is made to the tolerance
+    const Selected afresh(kernel, Polynomial::none, loose, changed);
+    EXPECT_LE(afresh.result.largestError, afresh.result.tolerance);
+}
+
+
+// By definition of SelectionSettings
+TEST(Greedy, aRoughFieldGetsARoughTolerance)
+{
+    Random random(13);
+    const Kernel kernel(KernelType::wendlandC2, 1);
+    ControlPoints candidates = box(random, 400);
+    for (ControlPoint& p : candidates)
+    {
+        p.value = Vector3(
+            random.uniform(-1, 1), random.uniform(-1, 1),
+            random.uniform(-1, 1));
+    }
+    SelectionSettings settings = settingsOf(1e-3);
+    settings.roughTolerance = 0.3;
+    settings.roughPoints = 50;
+    settings.roughShare = 0.2;
+    const Selected some(kernel, Polynomial::none, settings, candidates);
+    EXPECT_TRUE(some.result.rough);
+    EXPECT_TRUE(some.result.converged());
+    EXPECT_DOUBLE_EQ(
+        some.result.tolerance, 0.3 * some.result.largestDisplacement);
+    EXPECT_GT(some.result.selected, 80);
+    EXPECT_LT(some.result.selected, 390);
+    expectHonest(some, candidates);
+
+    // Neither of the two bounds is enough
+    settings.roughPoints = 400;
+    const Selected all(kernel, Polynomial::none, settings, candidates);
+    EXPECT_FALSE(all.result.rough);
+    EXPECT_GT(all.result.selected, some.result.selected);
+    settings.roughPoints = 50;
+    settings.roughShare = 1;
+    const Selected too(kernel, Polynomial::none, settings, candidates);
+    EXPECT_FALSE(too.result.rough);
 }
 
 

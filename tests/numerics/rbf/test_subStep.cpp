@@ -22,7 +22,8 @@ SubStepSettings settings(const double radius)
     SelectionSettings selection;
     selection.all = true;
     return {
-        Kernel(KernelType::wendlandC2, radius), Polynomial::none, selection, 0};
+        Kernel(KernelType::wendlandC2, radius), Polynomial::none, selection, 0,
+        0};
 }
 
 
