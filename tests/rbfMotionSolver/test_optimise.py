@@ -42,7 +42,7 @@ FOLDS = sheet(0.38)
 
 
 def test_a_motion_that_folds_is_untangled(tmp_path):
-    _, log = run(tmp_path / "refused", FOLDS, status=1)
+    _, log = run(tmp_path / "refused", "subSteps 1;" + FOLDS, status=1)
     assert "The motion makes the mesh invalid" in log
     case, log = run(tmp_path / "untangled", FOLDS + "optimise {}")
     assert re.search(r"invalid [1-9]\d* -> 0;", log)
@@ -69,7 +69,9 @@ def test_a_motion_within_the_limits_is_left_alone(tmp_path):
 
 
 def test_never_does_nothing(tmp_path):
-    _, log = run(tmp_path, FOLDS + "optimise { when never; }", status=1)
+    _, log = run(
+        tmp_path, "subSteps 1;" + FOLDS + "optimise { when never; }", status=1
+    )
     assert "The motion makes the mesh invalid" in log
 
 
