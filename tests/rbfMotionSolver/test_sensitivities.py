@@ -422,7 +422,7 @@ def test_what_has_no_derivative_says_so(tmp_path, ranks):
     output = refused(
         "limit",
         "type uniform; value (0 0 -1.5);",
-        "supportRadius 2; onInvalidMesh limit;",
+        "supportRadius 2; subSteps 1; onInvalidMesh limit;",
     )
     assert "was limited to" in output
     output = refused(
