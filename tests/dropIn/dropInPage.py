@@ -231,7 +231,7 @@ def page(results):
 
 START = """# OpenFOAM's own tutorials
 
-Every tutorial of OpenFOAM v1912 that moves a mesh, made small, run as it is
+Tutorials of OpenFOAM v1912 that move a mesh, made small, run as they are
 and with `rbfMotionSolver`: `tests/dropIn/Allrun` writes this page. Cases
 whose mesh flow moves, and overset ones, run their own solver; the others
 `moveDynamicMesh`.
@@ -245,8 +245,8 @@ whose mesh flow moves, and overset ones, run their own solver; the others
   smaller of two runs that take turns; *whole run*: the ratio of the CPU times
   of whole runs, first step and flow included"""
 
-CHANGES = """What stands in `rbfMotionSolverCoeffs` is what the message of the run with two
-lines prints or describes: velocities and components of the displacement
+CHANGES = """What stands in `rbfMotionSolverCoeffs` is what the message of the run with
+two lines prints or describes: velocities and components of the displacement
 become groups of control points, and a body that floats becomes a group with
 the displacement `sixDoFRigidBody`, beside the patches that stay. There flow
 moves the body, in either run its own."""
