@@ -16,7 +16,7 @@ import pytest
 
 from boxCase import point_field, write_control
 from rbfCase import points_at, reference
-from test_overset import in_ring, zoned_case
+from test_overset import zoned_case
 
 TURN = (
     "solidBodyMotionFunction rotatingMotion; rotatingMotionCoeffs"
