@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "calculatedPointPatchField.H"
 #include "cellDisplacementField.H"
 #include "constraintPatches.H"
+#include "motionZone.H"
 #include "otherSolvers.H"
 #include "pointDisplacementField.H"
 #include "pointFields.H"
@@ -25,8 +26,6 @@ static bool slidingCondition(const pointPatchVectorField& condition)
     return isA<basicSymmetryPointPatchField<vector>>(condition);
 }
 
-
-static const char* const frozenPoints = "frozenPointsZone";
 
 } // End namespace Foam
 
@@ -75,24 +74,15 @@ Foam::controlPointGroups::controlPointGroups
 
 void Foam::controlPointGroups::freeze(const dictionary& coeffs)
 {
-    if (!coeffs.found(frozenPoints))
+    const word zone(motionZone::frozenZone(coeffs, mesh_));
+    if (zone.empty())
     {
         return;
-    }
-    const wordList zones(mesh_.pointZones().names());
-    const word zone(coeffs.get<word>(frozenPoints));
-    if (!zones.found(zone))
-    {
-        FatalIOErrorInFunction(coeffs)
-            << "Entry '" << frozenPoints << "': no pointZone is called '"
-            << zone << "'" << nl
-            << "    There are: " << flatOutput(zones) << nl
-            << exit(FatalIOError);
     }
     dictionary group(coeffs, dictionary());
     group.add("type", "fixed");
     group.add("pointZones", wordList(1, zone));
-    append(new controlPointGroup(frozenPoints, group, mesh_));
+    append(new controlPointGroup(motionZone::frozenKey, group, mesh_));
 }
 
 

@@ -97,7 +97,13 @@ const Foam::dictionary& Foam::ffdMotionSolver::checkedCoeffDict() const
     if (found(typeName + "Coeffs"))
     {
         wordList keys(ffdBoxes::keys());
-        keys.append(wordList({"onInvalidMesh", "constraints", "optimise"}));
+        keys.append
+        (
+            wordList
+            ({
+                "onInvalidMesh", "constraints", "frozenPointsZone", "optimise"
+            })
+        );
         keys.append(motionZone::keys());
         dictionaryChecks::onlyKeys(coeffDict(), keys);
     }

@@ -4,7 +4,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "motionZone.H"
-#include "dictionary.H"
+#include "polyMesh.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -39,6 +39,11 @@ static dictionary selection(const dictionary& dict, const dictionary& coeffs)
 } // End namespace Foam
 
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::word Foam::motionZone::frozenKey("frozenPointsZone");
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::motionZone::motionZone
@@ -55,6 +60,11 @@ Foam::motionZone::motionZone
     {
         zone_.reset(new zoneMotion(selected, mesh));
     }
+    const word frozen(frozenZone(coeffs, mesh));
+    if (!frozen.empty())
+    {
+        frozen_ = mesh.pointZones()[frozen];
+    }
 }
 
 
@@ -63,6 +73,30 @@ Foam::motionZone::motionZone
 Foam::wordList Foam::motionZone::keys()
 {
     return {"cellZone", "cellSet"};
+}
+
+
+Foam::word Foam::motionZone::frozenZone
+(
+    const dictionary& coeffs,
+    const polyMesh& mesh
+)
+{
+    if (!coeffs.found(frozenKey))
+    {
+        return word();
+    }
+    const wordList zones(mesh.pointZones().names());
+    const word zone(coeffs.get<word>(frozenKey));
+    if (!zones.found(zone))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Entry '" << frozenKey << "': no pointZone is called '"
+            << zone << "'" << nl
+            << "    There are: " << flatOutput(zones) << nl
+            << exit(FatalIOError);
+    }
+    return zone;
 }
 
 
@@ -88,6 +122,10 @@ void Foam::motionZone::restrict(vectorField& displacement) const
         {
             displacement[pointi] = all[pointi];
         }
+    }
+    for (const label pointi : frozen_)
+    {
+        displacement[pointi] = Zero;
     }
 }
 

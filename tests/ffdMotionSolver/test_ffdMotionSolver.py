@@ -961,3 +961,44 @@ def test_the_cut_faces_of_a_box_behind_a_step_stay_frozen(tmp_path):
         )
         output = case.run("moveDynamicMesh", status=1)
         assert "frozen layer" in output and face in output
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_points_of_a_frozen_zone_stay_and_others_move_by_the_formula(
+    tmp_path, ranks
+):
+    # As with displacementLaplacian, whose entry it is
+    parameters = parameter("a", [((1, 1, 1), (0.1, 0, 0))])
+    free = ffd_case(tmp_path / "free", ffd_box("body", parameters))
+    moved = move(free)
+    case = ffd_case(
+        tmp_path / "frozen",
+        ffd_box("body", parameters),
+        "frozenPointsZone some;",
+    )
+    case.write(
+        "system/topoSetDict",
+        "dictionary",
+        """actions
+( { name s; type pointSet; action new; source boxToPoint;
+    sourceInfo { box (-1 -1 0.6) (2 2 2); } }
+  { name some; type pointZoneSet; action new; source setToPointZone;
+    sourceInfo { set s; } } );""",
+    )
+    case.run("topoSet")
+    if ranks > 1:
+        case.decompose((1, 1, ranks))
+    points = move(case, ranks=ranks)
+    frozen = reference(case)[:, 2] > 0.6
+    assert 0 < frozen.sum() < frozen.size
+    np.testing.assert_array_equal(points[frozen], reference(case)[frozen])
+    np.testing.assert_array_equal(points[~frozen], moved[~frozen])
+    assert not np.array_equal(moved[frozen], reference(case)[frozen])
+
+
+def test_a_frozen_zone_that_is_not_there_is_an_error(tmp_path):
+    parameters = parameter("a", [((1, 1, 1), (0.1, 0, 0))])
+    output = ffd_case(
+        tmp_path, ffd_box("body", parameters), "frozenPointsZone some;"
+    ).run("moveDynamicMesh", status=1)
+    assert "no pointZone is called 'some'" in output

@@ -17,7 +17,7 @@ from boundaryLayer import AROUND, CHORD, THICKNESS, layers, pitched
 from rbfCase import groups, points_at, rbf_case, reference, side, ulps
 
 TOLERANCE = "greedy { tolerance %s; }"
-UNCORRECTED = "surfaceCorrection no; " + TOLERANCE
+UNCORRECTED = "subSteps 1; surfaceCorrection no; " + TOLERANCE
 
 
 def morph(case, **run):
