@@ -254,7 +254,8 @@ bool Foam::rbfMotionProblem::isValid(const vectorField& displacement) const
 Foam::string Foam::rbfMotionProblem::remedy() const
 {
     OStringStream remedy;
-    if (settings_.subStepsGiven && settings_.subSteps > 0)
+    const bool fewer = settings_.subStepsGiven && settings_.subSteps > 0;
+    if (fewer)
     {
         remedy
             << "Leave out 'subSteps', which is " << settings_.subSteps
@@ -263,16 +264,15 @@ Foam::string Foam::rbfMotionProblem::remedy() const
     }
     else
     {
-        remedy
-            << (
-                   settings_.subSteps == 0
-                 ? "More steps than one did not help. Make"
-                 : "Make"
-               );
+        remedy << "Make";
     }
     remedy
         << " the motion smaller, or let patches slide that are fixed or told to"
         << " move beside it";
+    if (settings_.subSteps == 0)
+    {
+        remedy << ": more steps than one did not help";
+    }
     return remedy.str();
 }
 

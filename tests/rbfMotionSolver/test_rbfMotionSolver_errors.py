@@ -281,7 +281,7 @@ COEFFICIENTS = {
         ["Nothing moves", "type moving"],
     ),
     "motion that folds": (
-        top("type uniform; value (0 0 -1.5);"),
+        "greedy { tolerance 1e-5; }" + top("type uniform; value (0 0 -1.5);"),
         [
             "makes the mesh invalid",
             "wrongly oriented faces",

@@ -111,7 +111,7 @@ def test_a_motion_that_no_number_of_steps_makes_is_refused_as_of_one(
         case = rbf_case(tmp_path / name, coeffs=entry + TOO_FAR, cells=CELLS)
         output = case.run("moveDynamicMesh", status=1)
         assert ("Leave out 'subSteps'" in output) == (name == "one")
-        assert ("More steps than one did not help" in output) == (
+        assert ("more steps than one did not help" in output) == (
             name == "default"
         )
         said.append(re.search(r"valid up to the fraction (\S+) of", output)[1])
