@@ -288,7 +288,7 @@ COEFFICIENTS = {
             "Make the motion smaller",
             "onInvalidMesh ignore",
             "onInvalidMesh limit",
-            "valid up to the fraction 0.61",
+            "valid up to the fraction 0.624",
         ],
     ),
 }
