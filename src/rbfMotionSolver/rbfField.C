@@ -264,25 +264,17 @@ void Foam::rbfField::select(rbfMotion& motion, const bool anew)
     const bool restored = !restored_.empty();
     const bool newSystem = !selection_;
     pstreamCommunicator communicator;
-    try
-    {
-        const morph::SelectionResult result = select(communicator);
-        rough_ = result.rough;
-        motion.add
-        (
-            region_,
-            result,
-            selection_,
-            nullptr,
-            communicator,
-            result.added > 0 || (newSystem && (anew || !restored))
-        );
-    }
-    catch (const std::exception& wrong)
-    {
-        FatalIOErrorInFunction(problem_.dict())
-            << wrong.what() << nl << exit(FatalIOError);
-    }
+    const morph::SelectionResult result = select(communicator);
+    rough_ = result.rough;
+    motion.add
+    (
+        region_,
+        result,
+        selection_,
+        nullptr,
+        communicator,
+        result.added > 0 || (newSystem && (anew || !restored))
+    );
 }
 
 

@@ -15,6 +15,13 @@ SPDX-License-Identifier: GPL-3.0-or-later
 namespace Foam
 {
 
+//- From which mesh a time step starts
+enum class referenceMesh
+{
+    fixed,
+    moving
+};
+
 // A motion that needs more is one of several time steps
 static const label mostSubSteps = 1000;
 
@@ -230,6 +237,31 @@ static string imagesRefusal(const rbfMotionSettings& settings)
     return "";
 }
 
+//- The entry reference, after a check of what it excludes
+static bool readMovingReference(const dictionary& dict)
+{
+    const Enum<referenceMesh> names
+    ({
+        { referenceMesh::fixed, "fixed" },
+        { referenceMesh::moving, "moving" }
+    });
+    const bool moving =
+        dictionaryChecks::getChoice
+        (
+            dict, "reference", names, referenceMesh::fixed
+        )
+     == referenceMesh::moving;
+    if (moving && dict.found("subSteps"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'subSteps' starts from the reference mesh at each time,"
+            << " which 'reference moving' does not" << nl
+            << "    Remove subSteps; where a step is too large, make the time"
+            << " step smaller" << nl << exit(FatalIOError);
+    }
+    return moving;
+}
+
 } // End namespace Foam
 
 
@@ -348,6 +380,7 @@ Foam::rbfMotionSettings Foam::rbfMotionSettings::read(const dictionary& dict)
             << "    Give at most " << mostSubSteps << ", or auto" << nl
             << exit(FatalIOError);
     }
+    settings.movingReference = readMovingReference(dict);
     return settings;
 }
 

@@ -29,23 +29,23 @@ static const scalar resolved = 0.1;
 
 Foam::rbfSensitivities::rbfSensitivities
 (
-    const dictionary& dict,
-    rbfMotionProblem& problem,
     const PtrList<controlPointGroup>& groups,
-    oneStepMotion& motion,
+    oneStepMotion& oneStep,
+    const motion& made,
     const vectorField& displacement
 )
 :
-    dict_(dict),
-    problem_(problem),
+    dict_(oneStep.problem().dict()),
+    problem_(oneStep.problem()),
     groups_(groups),
     displacement_(displacement.size()),
     parameters_(parameters(groups, sources_)),
-    fields_(motion.fields().size()),
-    own_(motion.fields().size()),
+    fields_(oneStep.fields().size()),
+    own_(oneStep.fields().size()),
     first_(-1),
     batch_()
 {
+    check(made);
     checkThatSurfacesStay();
     forAll(displacement_, pointi)
     {
@@ -56,9 +56,9 @@ Foam::rbfSensitivities::rbfSensitivities
     }
     forAll(fields_, regioni)
     {
-        if (motion.fields()[regioni].active())
+        if (oneStep.fields()[regioni].active())
         {
-            fields_.set(regioni, &motion.fields()[regioni]);
+            fields_.set(regioni, &oneStep.fields()[regioni]);
         }
     }
     selectWhereAtRest();
@@ -66,6 +66,43 @@ Foam::rbfSensitivities::rbfSensitivities
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::rbfSensitivities::check(const motion& made) const
+{
+    if (made.nSteps > 1)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The motion was made in " << made.nSteps << " steps: dx/dmu is that"
+            << " of motions in one step" << nl
+            << "    Use 'subSteps 1', with a larger 'supportRadius' where the"
+            << " mesh is invalid then" << nl << exit(FatalIOError);
+    }
+    if (problem_.settings().movingReference)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "With 'reference moving' a mesh depends on all steps before: there"
+            << " is no dx/dmu of one" << nl
+            << "    Use 'reference fixed'" << nl << exit(FatalIOError);
+    }
+    if (made.optimised)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The mesh was optimised after the motion: dx/dmu is that of the"
+            << " motion alone" << nl
+            << "    Remove 'optimise', or ask for derivatives of a smaller"
+            << " motion, which needs none" << nl << exit(FatalIOError);
+    }
+    if (made.fraction < 1)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The motion was limited to " << made.fraction << " of what is"
+            << " prescribed ('onInvalidMesh limit'), which depends on no"
+            << " parameter smoothly" << nl
+            << "    " << problem_.remedy().c_str() << nl
+            << exit(FatalIOError);
+    }
+}
+
 
 void Foam::rbfSensitivities::checkThatSurfacesStay() const
 {

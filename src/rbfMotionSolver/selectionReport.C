@@ -20,7 +20,8 @@ Foam::selectionReport::selectionReport
 )
 :
     mesh_(mesh),
-    settings_(settings)
+    settings_(settings),
+    toldOfSteps_(false)
 {}
 
 
@@ -195,6 +196,13 @@ void Foam::selectionReport::steps(const rbfMotion& motion)
     if (motion.nSteps == 1)
     {
         return;
+    }
+    if (!settings_.subStepsGiven && !toldOfSteps_)
+    {
+        toldOfSteps_ = true;
+        Info<< "rbfMotionSolver: one step would make the mesh invalid: the"
+            << " motion is made in sub-steps. 'subSteps 1' makes that an error"
+            << endl;
     }
     label fewest = 0;
     label most = 0;

@@ -171,17 +171,9 @@ Foam::vectorField Foam::subSteppedMotion::next
 ) const
 {
     vectorField inPlane(motion.inPlane);
-    try
+    for (const moving& part : parts)
     {
-        for (const moving& part : parts)
-        {
-            addStep(part, motion, inPlane);
-        }
-    }
-    catch (const std::exception& wrong)
-    {
-        FatalIOErrorInFunction(problem_.dict())
-            << wrong.what() << nl << exit(FatalIOError);
+        addStep(part, motion, inPlane);
     }
     motion.times.lap(motionTimes::selection);
     problem_.constrain(inPlane, scalar(motion.nMade + 1)/motion.nSteps);
