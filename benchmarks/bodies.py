@@ -22,6 +22,7 @@ import subprocess
 import sys
 
 import numpy as np
+from openfoam import header
 
 STEPS = 24
 DELTA_T = 0.005
@@ -135,13 +136,6 @@ def run(case, *command):
 def substitute(path, pattern, text):
     former = path.read_text()
     path.write_text(re.sub(pattern, text, former))
-
-
-def header(name):
-    return (
-        "FoamFile { version 2.0; format ascii; class dictionary; "
-        f"object {name}; }}\n"
-    )
 
 
 def meshed(folder):

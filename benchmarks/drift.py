@@ -15,7 +15,8 @@ import re
 import sys
 import tempfile
 
-from timeSteps import MOTIONS, header, make_case, replace, run
+from openfoam import header, run
+from timeSteps import MOTIONS, make_case, replace
 
 PERIODS = 100
 STEPS = 10

@@ -20,6 +20,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from openfoam import header, run
 
 TUTORIALS = pathlib.Path(os.environ["FOAM_TUTORIALS"])
 RUNS = 5
@@ -69,13 +70,6 @@ PHASES = {
 }
 
 
-def header(name):
-    return (
-        "FoamFile { version 2.0; format ascii; class dictionary; "
-        f"object {name}; }}\n"
-    )
-
-
 def make_case(path, tutorial, coeffs):
     """A copy of the tutorial that rbfMotionSolver moves at time 1."""
     shutil.copytree(TUTORIALS / tutorial, path)
@@ -100,16 +94,6 @@ def make_case(path, tutorial, coeffs):
     if (path / "0").exists():
         shutil.copytree(path / "0", path / "1")
     run(path, "decomposePar", "-time", "1")
-
-
-def run(path, *command):
-    done = subprocess.run(
-        command, cwd=path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    output = done.stdout.decode()
-    if done.returncode:
-        sys.exit(f"{command} failed:\n{output[-3000:]}")
-    return output
 
 
 def measure(path, ranks):

@@ -19,9 +19,9 @@ import pathlib
 import re
 import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
+from openfoam import header, run
 
 HERE = pathlib.Path(__file__).resolve().parent
 TUTORIAL = HERE.parent / "tutorials/oscillatingCylinder"
@@ -61,23 +61,6 @@ LINEAR_SOLVER = """
         smoother        GaussSeidel;
     }
 """
-
-
-def header(name):
-    return (
-        "FoamFile { version 2.0; format ascii; class dictionary; "
-        f"object {name}; }}\n"
-    )
-
-
-def run(path, *command):
-    done = subprocess.run(
-        command, cwd=path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    output = done.stdout.decode()
-    if done.returncode:
-        sys.exit(f"{command} failed:\n{output[-3000:]}")
-    return output
 
 
 def replace(path, *changes):

@@ -27,6 +27,7 @@ import tempfile
 
 from boundaryLayer import pitched
 from boxCase import MESH, SIDES, from_block_mesh
+from openfoam import header, run
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -43,23 +44,6 @@ dynamicFvMesh dynamicMotionSolverFvMesh;
 motionSolverLibs (morphMotionSolvers);
 motionSolver rbfMotionSolver;
 """
-
-
-def header(name, kind="dictionary"):
-    return (
-        f"FoamFile {{ version 2.0; format ascii; class {kind}; "
-        f"object {name}; }}\n"
-    )
-
-
-def run(path, *command):
-    done = subprocess.run(
-        command, cwd=path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    output = done.stdout.decode()
-    if done.returncode:
-        sys.exit(f"{command} in {path} failed:\n{output[-3000:]}")
-    return output
 
 
 def control(path, end, step=1, form="binary"):

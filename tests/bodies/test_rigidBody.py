@@ -12,14 +12,19 @@ OpenFOAM's own motion solver rigidBodyMotion.
 """
 
 import re
-import shutil
 
 import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from boxCase import write_control
-from rbfCase import groups, points_at, rbf_case, reference, side
+from rbfCase import (
+    groups,
+    points_at,
+    rbf_case,
+    reference,
+    restart_from,
+    side,
+)
 
 G = 9.81
 DT = 0.02
@@ -346,15 +351,7 @@ def test_a_restart_continues_to_the_last_bit(
     whole = points_at(case, end)
     assert np.abs(points_at(case, half) - whole).max() > 0.01
 
-    if ranks > 1:
-        case.run("reconstructPar", "-time", half)
-        for folder in case.path.glob("processor*"):
-            shutil.rmtree(folder)
-    else:
-        shutil.rmtree(case.path / end)
-    write_control(case, **{**CONTROL, "startFrom": "latestTime"})
-    if restart_ranks > 1:
-        case.decompose((1, restart_ranks, 1), "-latestTime")
+    restart_from(case, half, end, CONTROL, ranks, restart_ranks)
     output = case.run("moveDynamicMesh", ranks=restart_ranks)
     assert "rigidBody.robot: continues" in output
     again = points_at(case, end)

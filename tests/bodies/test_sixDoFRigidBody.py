@@ -13,13 +13,18 @@ spring that starts at rest, a away from its equilibrium, has at step n
 and the same holds for an angle with the moment of inertia about the axis.
 """
 
-import shutil
 
 import numpy as np
 import pytest
 
-from rbfCase import groups, points_at, rbf_case, reference, side
-from boxCase import write_control
+from rbfCase import (
+    groups,
+    points_at,
+    rbf_case,
+    reference,
+    restart_from,
+    side,
+)
 
 DT = 0.1
 STEPS = 8
@@ -170,15 +175,7 @@ def test_a_restart_continues_to_the_last_bit(tmp_path, ranks, restart_ranks):
     assert (state / "sixDoFRigidBody.lid").is_file()
     assert np.abs(points_at(case, half) - whole).max() > 0.01
 
-    if ranks > 1:
-        case.run("reconstructPar", "-time", half)
-        for folder in case.path.glob("processor*"):
-            shutil.rmtree(folder)
-    else:
-        shutil.rmtree(case.path / end)
-    write_control(case, **{**CONTROL, "startFrom": "latestTime"})
-    if restart_ranks > 1:
-        case.decompose((1, restart_ranks, 1), "-latestTime")
+    restart_from(case, half, end, CONTROL, ranks, restart_ranks)
     output = case.run("moveDynamicMesh", ranks=restart_ranks)
     assert "sixDoFRigidBody.lid: continues" in output
     again = points_at(case, end)

@@ -13,9 +13,9 @@ import re
 import numpy as np
 import pytest
 
-from boxCase import words
 from rbfCase import (
     SELECTED,
+    bent_top,
     groups,
     move,
     rbf_case,
@@ -29,29 +29,12 @@ CELLS = (8, 8, 6)
 
 def wavy(path, settings, cells=CELLS, **rest):
     """A box whose top bends, with other settings of the selection."""
-    case = rbf_case(
-        path,
-        coeffs="supportRadius 1;"
-        + settings
-        + groups(
-            top="type moving; patches (zMax); displacement"
-            ' { type file; file "constant/top.txt"; }',
-            bottom="type fixed; patches (zMin);",
-            walls='type sliding; patches ("[xy].*");',
-        ),
-        cells=cells,
-        **rest,
-    )
-    x = reference(case)
-    x = x[side(x, "zMax")]
-    (case.path / "constant/top.txt").write_text(
-        "".join(
-            f"{words(a)} 0 0 {0.1*np.sin(4*a[0])*np.cos(3*a[1])!r}\n"
-            for a in x
-        )
-    )
-    largest = np.abs(0.1 * np.sin(4 * x[:, 0]) * np.cos(3 * x[:, 1])).max()
-    return case, largest
+
+    def height(x):
+        return 0.1 * np.sin(4 * x[:, 0]) * np.cos(3 * x[:, 1])
+
+    case, x = bent_top(path, height, settings, cells=cells, **rest)
+    return case, np.abs(height(x)).max()
 
 
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])

@@ -15,34 +15,27 @@ import numpy as np
 import pytest
 
 from boxCase import words, write_control
-from rbfCase import groups, rbf_case, reference, selections, side, ulps
+from rbfCase import (
+    bent_top,
+    groups,
+    rbf_case,
+    reference,
+    selections,
+    side,
+    ulps,
+)
 from test_rbfMotionSolver_time import advance, points_at
 
 
 def bent(path, size, settings="", cells=(12, 12, 12), **rest):
     """A unit box whose top bends by so much in its middle."""
-    case = rbf_case(
-        path,
-        coeffs="supportRadius 1;"
-        + settings
-        + groups(
-            top="type moving; patches (zMax); displacement"
-            ' { type file; file "constant/top.txt"; }',
-            bottom="type fixed; patches (zMin);",
-            walls='type sliding; patches ("[xy].*");',
-        ),
-        cells=cells,
-        **rest,
-    )
-    x = reference(case)
-    x = x[side(x, "zMax")]
-    (path / "constant/top.txt").write_text(
-        "".join(
-            f"{words(a)} 0 0 "
-            f"{size*16*a[0]*(1-a[0])*a[1]*(1-a[1])*np.cos(3*a[0]-1.5)!r}\n"
-            for a in x
-        )
-    )
+
+    def height(x):
+        a, b = x[:, 0], x[:, 1]
+        bulge = a * (1 - a) * b * (1 - b)
+        return size * 16 * bulge * np.cos(3 * a - 1.5)
+
+    case, _ = bent_top(path, height, settings, cells=cells, **rest)
     return case
 
 

@@ -9,10 +9,11 @@
 """
 
 import re
+import shutil
 
 import numpy as np
 
-from boxCase import box, point_field
+from boxCase import box, point_field, words, write_control
 
 CUBE = {
     side: "patch" for side in ("xMin", "xMax", "yMin", "yMax", "zMin", "zMax")
@@ -78,6 +79,48 @@ def points_at(case, time):
     if list(case.path.glob("processor[0-9]*")):
         return case.decomposed_points(f"{time}/polyMesh/points")
     return case.points(f"{time}/polyMesh/points")
+
+
+def restart_from(case, half, end, control, ranks, restart_ranks):
+    """Make a case that ran to its end one that goes on from half of it.
+
+    control: arguments of write_control(); ranks: those it ran on, and those on
+    which it is to go on.
+    """
+    if ranks > 1:
+        case.run("reconstructPar", "-time", half)
+        for folder in case.path.glob("processor*"):
+            shutil.rmtree(folder)
+    else:
+        shutil.rmtree(case.path / end)
+    write_control(case, **{**control, "startFrom": "latestTime"})
+    if restart_ranks > 1:
+        case.decompose((1, restart_ranks, 1), "-latestTime")
+
+
+def bent_top(path, height, settings="", **rest):
+    """A unit box whose top bends by height(points); its walls slide.
+
+    settings: entries of the coefficients beside the groups.
+    """
+    case = rbf_case(
+        path,
+        coeffs="supportRadius 1;"
+        + settings
+        + groups(
+            top="type moving; patches (zMax); displacement"
+            ' { type file; file "constant/top.txt"; }',
+            bottom="type fixed; patches (zMin);",
+            walls='type sliding; patches ("[xy].*");',
+        ),
+        **rest,
+    )
+    x = reference(case)
+    x = x[side(x, "zMax")]
+    (case.path / "constant/top.txt").write_text(
+        "".join(f"{words(a)} 0 0 {float(z)!r}\n" for a, z in zip(x, height(x)))
+    )
+    return case, x
 
 
 def side(points, name):

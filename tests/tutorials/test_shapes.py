@@ -4,7 +4,7 @@
 """The tutorials of axes, bulk parameters and constraints: wingTwist, carBody
 and nozzleThickness.
 
-Sources of truth: the scaling and rotation that constant/boxes asks for; closed
+Sources of truth: the scaling and rotation that the boxes ask for; closed
 forms of the nozzle's wall; what each README says.
 """
 
