@@ -46,7 +46,15 @@ Foam::jointedBodies::jointedBodies
     ramp_
     (
         coeffs.found("ramp")
-      ? foamCompat::function1<scalar>("ramp", coeffs, &mesh)
+      ? dictionaryChecks::naming
+        (
+            coeffs,
+            "ramp",
+            [&]
+            {
+                return foamCompat::function1<scalar>("ramp", coeffs, &mesh);
+            }
+        )
       : nullptr
     ),
     nIter_(coeffs.getOrDefault<label>("nIter", 1))

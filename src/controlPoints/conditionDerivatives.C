@@ -6,6 +6,17 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "rbfControlPoints.H"
 #include "eigenFields.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+// In units of the mesh's size: steps of differences along curved surfaces
+static const scalar differenceStep = 1e-5;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::vector Foam::rbfControlPoints::ontoDerivative

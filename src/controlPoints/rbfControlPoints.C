@@ -21,9 +21,6 @@ static const scalar cornerTolerance = 1e-6;
 // told by a coupling, which maps to each
 static const scalar sameDisplacement = 1e-5;
 
-// In units of the mesh's size: steps of differences along curved surfaces
-static const scalar differenceStep = 1e-5;
-
 } // End namespace Foam
 
 

@@ -241,6 +241,32 @@ def test_a_pendulum_has_its_period(tmp_path, solver, inner):
     assert q == pytest.approx(amplitude, rel=2e-3)
 
 
+def test_a_ramp_multiplies_gravity(tmp_path):
+    """Source of truth: the equation of the pendulum, gravity times the ramp;
+    a damping of the acceleration multiplies it likewise."""
+    for name, rest, factor in (
+        ("ramp", f"ramp polynomial (({1/(STEPS*DT)!r} 1));", None),
+        ("damping", "accelerationDamping 0.5;", 0.5),
+    ):
+        case = rbf_case(
+            tmp_path / name,
+            control=CONTROL,
+            coeffs=moved(single(rest), "zMax"),
+        )
+        case.run("moveDynamicMesh")
+        n = [0]
+
+        def acceleration(q, v):
+            n[0] += 1
+            return pendulum(q, v) * (factor or n[0] / STEPS)
+
+        q, v = leapfrog(acceleration, (0.4,), STEPS)[-1]
+        found = state(case, f"{STEPS*DT:g}")
+        assert abs(q[0] - 0.4) > 0.01
+        assert found[0] == pytest.approx(q, abs=1e-9)
+        assert found[1] == pytest.approx(v, abs=1e-9)
+
+
 def test_what_is_merged_is_one_body(tmp_path):
     """A pendulum of two halves, one merged with the other, against the single
     one of their sum."""
