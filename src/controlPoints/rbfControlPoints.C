@@ -585,11 +585,53 @@ void Foam::rbfControlPoints::restrict
 }
 
 
+morph::ControlPoints Foam::rbfControlPoints::conditionsOnWay
+(
+    const label regioni,
+    const morph::Vectors& reached,
+    const motionPaths& paths,
+    const scalar fraction,
+    const label steps
+) const
+{
+    const controlCandidates& c = candidates_[regioni];
+    morph::ControlPoints conditions(c.conditions);
+    forAll(c.places, j)
+    {
+        const label i = c.places[j];
+        if
+        (
+            i >= 0
+         && !conditions_[i].slides()
+         && paths.turns(controlled_.groupIndex(i))
+        )
+        {
+            const morph::Vector3 so(reached.row(j).transpose());
+            const morph::Vector3 next
+            (
+                toEigen
+                (
+                    paths.part
+                    (
+                        controlled_.groupIndex(i), conditions_[i], fraction
+                    )
+                )
+            );
+            morph::ControlPoint whole(c.whole[j]);
+            whole.value = so + steps*(next - so);
+            conditions[j] = restricted(whole);
+        }
+    }
+    return conditions;
+}
+
+
 void Foam::rbfControlPoints::impose
 (
     vectorField& displacement,
     const bool slidingToo,
-    const scalar fraction
+    const scalar fraction,
+    const motionPaths& paths
 ) const
 {
     // Half-way positions of moving surfaces are not known
@@ -600,7 +642,7 @@ void Foam::rbfControlPoints::impose
         const morph::ControlPoint& p = conditions_[i];
         if (!p.slides())
         {
-            d = fraction*toFoam(p.value);
+            d = paths.part(controlled_.groupIndex(i), p, fraction);
         }
         else if (slide && sliding_.follows(i))
         {

@@ -67,6 +67,31 @@ void Foam::motionMaker::checkPointsOfMesh() const
 }
 
 
+Foam::rbfMotion Foam::motionMaker::moveInSteps
+(
+    const label n,
+    const bool check
+)
+{
+    const rbfMotion motion(subSteppedMotion(problem_).move(n, check));
+    const label turned = motion.paths.turnsOver(ways_);
+    dictionaryChecks::stopIf
+    (
+        problem_.dict(),
+        turned >= 0
+      ? "Control points '" + problem_.controlPoints().groupName(turned)
+      + "' have turned by more than half a turn since the reference mesh:"
+        " what turns the mesh least is now the other way around, to where it"
+        " would jump\n"
+        "    Use 'reference moving', which follows any turn, with 'optimise'"
+        " for a mesh that lasts longer"
+      : ""
+    );
+    ways_ = motion.paths;
+    return motion;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::motionMaker::update()
@@ -120,10 +145,9 @@ Foam::rbfMotion Foam::motionMaker::move()
     const label n = settings_.subSteps;
     const bool check =
         settings_.onInvalidMesh != motionLimiter::policy::ignore;
-    const subSteppedMotion several(problem_);
     if (n > 1)
     {
-        return several.move(n, check);
+        return moveInSteps(n, check);
     }
 
     // Where one step is valid this costs nothing: that is checked in any case
@@ -142,7 +166,7 @@ Foam::rbfMotion Foam::motionMaker::move()
     )
     {
         const motionTimes former(motion.times);
-        motion = several.move(more, check || more < maxSubSteps);
+        motion = moveInSteps(more, check || more < maxSubSteps);
         motion.times += former;
     }
     if (!motion.complete() && !settings_.subStepsGiven)

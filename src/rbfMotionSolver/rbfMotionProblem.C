@@ -204,7 +204,8 @@ morph::GreedySelection::Renewal Foam::rbfMotionProblem::renewal
 void Foam::rbfMotionProblem::constrain
 (
     vectorField& inPlane,
-    const scalar fraction
+    const scalar fraction,
+    const motionPaths& paths
 ) const
 {
     // Otherwise images make coupled points move alike
@@ -212,7 +213,7 @@ void Foam::rbfMotionProblem::constrain
     {
         reduced_.match(inPlane);
     }
-    controlPoints_.impose(inPlane, settings_.exactSliding, fraction);
+    controlPoints_.impose(inPlane, settings_.exactSliding, fraction, paths);
 }
 
 

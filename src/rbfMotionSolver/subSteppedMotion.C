@@ -137,13 +137,17 @@ void Foam::subSteppedMotion::addStep
         problem_.correctionRadius(regioni, true),
         part.images
     };
+    const label steps = motion.nSteps - motion.nMade;
     pstreamCommunicator communicator;
     const morph::SubStep step = morph::subStep
     (
         settings,
-        controlPoints.candidates(regioni).conditions,
+        controlPoints.conditionsOnWay
+        (
+            regioni, reached, motion.paths, motion.partAfterNext(), steps
+        ),
         reached,
-        motion.nSteps - motion.nMade,
+        steps,
         problem_.renewal(regioni),
         asVectors(positions),
         communicator
@@ -176,7 +180,7 @@ Foam::vectorField Foam::subSteppedMotion::next
         addStep(part, motion, inPlane);
     }
     motion.times.lap(motionTimes::selection);
-    problem_.constrain(inPlane, scalar(motion.nMade + 1)/motion.nSteps);
+    problem_.constrain(inPlane, motion.partAfterNext(), motion.paths);
     motion.times.lap(motionTimes::propagation);
     return inPlane;
 }
@@ -193,6 +197,7 @@ Foam::rbfMotion Foam::subSteppedMotion::move
 {
     const std::vector<moving> parts(findMoving());
     rbfMotion motion(n);
+    motion.paths = problem_.controlPoints().paths(n);
     motion.inPlane = vectorField(problem_.points0().size(), Zero);
     while (motion.nMade < fraction*n)
     {
@@ -201,7 +206,7 @@ Foam::rbfMotion Foam::subSteppedMotion::move
         if (part < 1)
         {
             inPlane = motion.inPlane + part*(inPlane - motion.inPlane);
-            problem_.constrain(inPlane, fraction);
+            problem_.constrain(inPlane, fraction, motion.paths);
         }
 
         const bool valid =

@@ -272,3 +272,64 @@ def test_a_wrong_number_of_steps_is_an_error_that_names_it(tmp_path, value):
     output = case.run("moveDynamicMesh", status=1)
     assert "FOAM FATAL IO ERROR" in output and "subSteps" in output
     assert case.tree() == before
+
+
+def turning(angle):
+    """A cube in the middle of a box that turns about its axis of y [deg]."""
+    cube = " ".join(
+        f"({x} {y} {z})"
+        for x in (0.4, 0.6)
+        for y in (0.4, 0.6)
+        for z in (0.4, 0.6)
+    )
+    return "supportRadius 0.8;" + groups(
+        cube=f"type moving; points ({cube}); displacement {{"
+        " type solidBody; solidBodyMotionFunction rotatingMotion;"
+        " rotatingMotionCoeffs { origin (0.5 0.5 0.5); axis (0 1 0);"
+        f" omega {np.radians(angle)!r}; }} }}",
+        sides="type fixed; patches (xMin xMax yMin yMax zMin zMax);",
+    )
+
+
+def test_steps_turn_with_a_body_on_any_number_of_ranks(tmp_path):
+    """On the chord of half a turn, through the centre, no mesh can go."""
+    results = []
+    for ranks, split in ((1, None), (2, (2, 1, 1)), (3, (1, 3, 1))):
+        case = rbf_case(
+            tmp_path / str(ranks),
+            coeffs="subSteps 8; onInvalidMesh ignore;" + turning(178),
+            cells=(10, 10, 10),
+        )
+        if split:
+            case.decompose(split)
+        output = case.run("moveDynamicMesh", ranks=ranks)
+        assert steps(output) == [8]
+        results.append(points_at(case, "1"))
+    for other in results[1:]:
+        assert np.array_equal(other, results[0])
+    # Corners are prescribed; the point between two of them follows
+    x = reference(case)
+    c, s = np.cos(np.radians(178)), np.sin(np.radians(178))
+    for at, tolerance in (
+        ((0.4, 0.4, 0.4), 1e-14),
+        ((0.6, 0.6, 0.6), 1e-14),
+        ((0.4, 0.4, 0.5), 0.03),
+    ):
+        (i,) = np.flatnonzero(np.abs(x - at).max(axis=1) < 1e-9)
+        r = np.array(at) - 0.5
+        turned = 0.5 + np.array(
+            [c * r[0] + s * r[2], r[1], c * r[2] - s * r[0]]
+        )
+        np.testing.assert_allclose(results[0][i], turned, atol=tolerance)
+
+
+def test_a_body_that_turns_over_is_refused(tmp_path):
+    case = rbf_case(
+        tmp_path / "case",
+        coeffs="subSteps 8; onInvalidMesh ignore;" + turning(170),
+        cells=(10, 10, 10),
+        control={"end": 2},
+    )
+    output = case.run("moveDynamicMesh", status=1)
+    assert "Control points 'cube' have turned by more than half" in output
+    assert "reference moving" in output
