@@ -29,9 +29,11 @@ SUBJECTS = {
     "foam": "Any dictionary",
     "controlGeometry": "Function object motionControls",
     "catalyst": "Function object catalyst",
+    "remesh": "Re-meshing",
     "numerics": "Numerical core",
     "morphMesh": "morphMesh",
     "morphSurface": "morphSurface",
+    "morphRemesh": "morphRemesh",
 }
 
 # What the solvers check before the core would find out

@@ -93,6 +93,11 @@ DICTIONARIES = [
     ),
     ("optimise, and system/optimiseDict", "optimiseSettings", []),
     ("keep: what stays as it is", "ffdCorrection", []),
+    (
+        "remesh: cells replaced by tetrahedra",
+        "remeshSettings",
+        ["remeshSettings", "remeshEngine"],
+    ),
     ("Function object motionControls", "motionControls", []),
     ("Function object catalyst", "catalystFunctionObject", []),
     (

@@ -21,8 +21,8 @@ static const double flat = 1e-6;
 // An arc of this angle [rad] and its chord are the same to round-off
 static const double straight = 1e-8;
 
-RigidPath RigidPath::fit(
-    const Vectors& x, const Vectors& d, Communicator& communicator)
+RigidPath
+RigidPath::fit(const Vectors& x, const Vectors& d, Communicator& communicator)
 {
     const Index n = x.rows();
     const auto sum = [&](const Eigen::VectorXd& terms)
@@ -63,12 +63,11 @@ RigidPath RigidPath::fit(
 
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
         covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Matrix3d mirrored =
-        svd.matrixV() * svd.matrixU().transpose();
+    const Eigen::Matrix3d mirrored = svd.matrixV() * svd.matrixU().transpose();
     Vector3 signs = Vector3::Ones();
     signs[2] = mirrored.determinant() < 0 ? -1 : 1;
-    const Eigen::Matrix3d rotation = svd.matrixV() * signs.asDiagonal()
-                                     * svd.matrixU().transpose();
+    const Eigen::Matrix3d rotation =
+        svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
 
     const double off = communicator.max(
         n > 0 ? (to - from * rotation.transpose()).rowwise().norm().maxCoeff()
@@ -92,7 +91,8 @@ Vector3 RigidPath::turned(const Vector3& x, const double f) const
     const double angle = rotation_.norm();
     return angle > 0 ? Vector3(
                Eigen::AngleAxisd(f * angle, rotation_ / angle)
-               * Vector3(x - centre_) - (x - centre_))
+                   * Vector3(x - centre_)
+               - (x - centre_))
                      : Vector3(Vector3::Zero());
 }
 

@@ -35,8 +35,7 @@ public:
     fit(const Vectors& x, const Vectors& d, Communicator& communicator);
 
     // d(x, f), where the displacement is d
-    Vector3
-    displacement(const Vector3& x, const Vector3& d, double f) const;
+    Vector3 displacement(const Vector3& x, const Vector3& d, double f) const;
 
     // The axis times the angle [rad], up to half a turn; zero for a straight
     // line

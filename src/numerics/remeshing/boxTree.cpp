@@ -41,7 +41,8 @@ void Box::extend(const Box& box)
 
 
 BoxTree::BoxTree(std::vector<Box> boxes)
-: boxes_(std::move(boxes)), order_(boxes_.size())
+: boxes_(std::move(boxes)),
+  order_(boxes_.size())
 {
     std::iota(order_.begin(), order_.end(), 0);
     if (!order_.empty())

@@ -41,7 +41,8 @@ Eigen::Matrix3d pseudoInverse(const Eigen::Matrix3d& matrix)
 
 CellSlopes::CellSlopes(
     Vectors position, std::vector<Index> start, std::vector<int> neighbour)
-: position_(std::move(position)), start_(std::move(start)),
+: position_(std::move(position)),
+  start_(std::move(start)),
   neighbour_(std::move(neighbour))
 {
     inverse_.reserve(nCells());
@@ -50,8 +51,7 @@ CellSlopes::CellSlopes(
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (Index n = start_[c]; n < start_[c + 1]; ++n)
         {
-            const Vector3 d =
-                position_.row(neighbour_[n]) - position_.row(c);
+            const Vector3 d = position_.row(neighbour_[n]) - position_.row(c);
             sum += d * d.transpose() / d.squaredNorm();
         }
         inverse_.push_back(pseudoInverse(sum));
@@ -67,8 +67,7 @@ Vectors CellSlopes::slopes(const Eigen::VectorXd& values) const
         Vector3 sum = Vector3::Zero();
         for (Index n = start_[c]; n < start_[c + 1]; ++n)
         {
-            const Vector3 d =
-                position_.row(neighbour_[n]) - position_.row(c);
+            const Vector3 d = position_.row(neighbour_[n]) - position_.row(c);
             sum += d * (values[neighbour_[n]] - values[c]) / d.squaredNorm();
         }
         result.row(c) = inverse_[c] * sum;
@@ -96,8 +95,7 @@ double CellSlopes::roughness(
     double off = 0, all = 0;
     for (Index n = start_[cell]; n < start_[cell + 1]; ++n)
     {
-        const Vector3 d =
-            position_.row(neighbour_[n]) - position_.row(cell);
+        const Vector3 d = position_.row(neighbour_[n]) - position_.row(cell);
         const double difference = values[neighbour_[n]] - values[cell];
         off += std::abs(difference - slope.dot(d));
         all += std::abs(difference);

@@ -74,8 +74,8 @@ ConservativeMap::ConservativeMap(OverlapTable table)
 }
 
 
-Eigen::VectorXd ConservativeMap::map(
-    const Eigen::VectorXd& values, const Vectors& slopes) const
+Eigen::VectorXd
+ConservativeMap::map(const Eigen::VectorXd& values, const Vectors& slopes) const
 {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(table_.nTargets());
     for (int i = 0; i < table_.nTargets(); ++i)
@@ -85,8 +85,8 @@ Eigen::VectorXd ConservativeMap::map(
         {
             const int j = table_.donor(e);
             volume += table_.volume(e);
-            integral += table_.volume(e)
-                * (values[j] + slopes.row(j).dot(way_.row(e)));
+            integral +=
+                table_.volume(e) * (values[j] + slopes.row(j).dot(way_.row(e)));
         }
         if (volume != 0)
         {
@@ -137,8 +137,7 @@ void ConservativeMap::limit(
             }
             const double change = slope.dot(way_.row(entry_[n]));
             byRange = std::min(
-                byRange,
-                allowed(values[j], change, range.least, range.most));
+                byRange, allowed(values[j], change, range.least, range.most));
             byBounds = std::min(
                 byBounds,
                 allowed(values[j], change, bounds.least, bounds.most));

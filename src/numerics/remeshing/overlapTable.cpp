@@ -82,8 +82,7 @@ OverlapTable::OverlapTable(
 }
 
 
-void OverlapTable::fill(
-    const int nTargets, const std::vector<Entry>& entries)
+void OverlapTable::fill(const int nTargets, const std::vector<Entry>& entries)
 {
     // Entries are in the order of donors, and so are those of each target
     start_.assign(nTargets + 1, 0);
@@ -121,8 +120,7 @@ OverlapTable::Sums OverlapTable::donorSums() const
 
 OverlapTable::Sums OverlapTable::targetSums() const
 {
-    Sums sums{
-        Eigen::VectorXd::Zero(nTargets()), Vectors::Zero(nTargets(), 3)};
+    Sums sums{Eigen::VectorXd::Zero(nTargets()), Vectors::Zero(nTargets(), 3)};
     for (int i = 0; i < nTargets(); ++i)
     {
         for (Index e = begin(i); e < end(i); ++e)

@@ -40,8 +40,8 @@ struct Pieces
     std::array<Piece, 81> piece;
     int size = 0;
 
-    void add(
-        const Barycentric& a, const Barycentric& b, const Barycentric& c,
+    void
+    add(const Barycentric& a, const Barycentric& b, const Barycentric& c,
         const Barycentric& d)
     {
         piece[size++].corner = {a, b, c, d};
@@ -60,8 +60,7 @@ struct Pieces
 
 // Keeps what is on the positive side of a plane, whose values at the corners of
 // the tetrahedron that is cut are given
-void cutByPlane(
-    const Barycentric& distance, const Pieces& pieces, Pieces& kept)
+void cutByPlane(const Barycentric& distance, const Pieces& pieces, Pieces& kept)
 {
     kept.size = 0;
     for (int n = 0; n < pieces.size; ++n)

@@ -28,7 +28,7 @@ Vector3 moved(const Vector3& x, const double angle)
 {
     const Vector3 r = x - through;
     return through + std::cos(angle) * r + std::sin(angle) * axis.cross(r)
-           + (1 - std::cos(angle)) * axis.dot(r) * axis;
+        + (1 - std::cos(angle)) * axis.dot(r) * axis;
 }
 
 Vectors body(const int n)
@@ -80,8 +80,8 @@ TEST(RigidPath, TurnsByEqualAngles)
             {
                 const Vector3 at = x.row(i).transpose();
                 const Vector3 r = moved(at, f * angle) - moved(mean, f * angle);
-                const Vector3 s = path.displacement(
-                    at, d.row(i).transpose(), f);
+                const Vector3 s =
+                    path.displacement(at, d.row(i).transpose(), f);
                 EXPECT_NEAR(
                     (at + s - mean - f * meanMoved - r).norm(), 0, 1e-11);
             }

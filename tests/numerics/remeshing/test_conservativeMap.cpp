@@ -56,8 +56,8 @@ protected:
     CellSlopes slopes = slopesOf(from);
     ConservativeMap map{OverlapTable(from.tetrahedra, to.tetrahedra)};
 
-    double lost(
-        const Eigen::VectorXd& before, const Eigen::VectorXd& after) const
+    double
+    lost(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const
     {
         return std::abs(from.volume.dot(before) - to.volume.dot(after))
             / from.volume.dot(before.cwiseAbs());
@@ -78,10 +78,8 @@ TEST_F(ConservativeMapTest, linearValuesStay)
 {
     const auto linear = [](const Vector3& x)
     { return 0.3 + x.dot(Vector3(1, -2, 0.5)); };
-    const Eigen::VectorXd mapped =
-        map.map(slopes, atCentres(from, linear), {});
-    EXPECT_LT(
-        (mapped - atCentres(to, linear)).cwiseAbs().maxCoeff(), 1e-13);
+    const Eigen::VectorXd mapped = map.map(slopes, atCentres(from, linear), {});
+    EXPECT_LT((mapped - atCentres(to, linear)).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 
@@ -91,8 +89,7 @@ TEST_F(ConservativeMapTest, boundsDoNotDisturbLinearValuesWithinThem)
     const auto linear = [](const Vector3& x) { return x.sum() / 3; };
     const Eigen::VectorXd mapped =
         map.map(slopes, atCentres(from, linear), {0, 1});
-    EXPECT_LT(
-        (mapped - atCentres(to, linear)).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT((mapped - atCentres(to, linear)).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 
@@ -164,13 +161,12 @@ TEST(ConservativeMap, isOfSecondOrder)
     {
         const CubeMesh from = cube(n == 0 ? 6 : 12, 1);
         const CubeMesh to = cube(n == 0 ? 7 : 14, 2);
-        const ConservativeMap map(
-            OverlapTable(from.tetrahedra, to.tetrahedra));
+        const ConservativeMap map(OverlapTable(from.tetrahedra, to.tetrahedra));
         const Eigen::VectorXd values = atCentres(from, smooth);
         const auto norm = [&](const Eigen::VectorXd& mapped)
         {
-            return std::sqrt(to.volume.dot(
-                (mapped - atCentres(to, smooth)).cwiseAbs2()));
+            return std::sqrt(
+                to.volume.dot((mapped - atCentres(to, smooth)).cwiseAbs2()));
         };
         error[n] = norm(map.map(slopesOf(from), values, {}));
         flat = norm(map.map(values, Vectors::Zero(values.size(), 3)));

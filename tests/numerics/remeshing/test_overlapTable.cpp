@@ -100,8 +100,7 @@ TEST(TetrahedronOverlap, slabsHaveTheirClosedForm)
         const double rest = std::pow(1 - s, 3) / 6;
         const double volume = 1. / 6 - rest;
         const Vector3 moment = Vector3::Constant(1. / 24)
-            - rest
-                * (Vector3::Constant((1 - s) / 4) + Vector3(s, 0, 0));
+            - rest * (Vector3::Constant((1 - s) / 4) + Vector3(s, 0, 0));
         const Overlap common =
             overlap(Tetrahedron(unitCorners()), Tetrahedron(slab(s)));
         EXPECT_NEAR(common.volume, volume, 1e-15);
@@ -210,8 +209,8 @@ TEST(TetrahedronOverlap, partsAddUpToTheWholeThatTheyFill)
                 sum += overlap(donor, Tetrahedron(t)).volume;
             }
             worst = std::max(worst, std::abs(sum / donor.volume() - 1));
-            thinnest = std::min(
-                thinnest, donor.volume() / std::pow(length(d), 3));
+            thinnest =
+                std::min(thinnest, donor.volume() / std::pow(length(d), 3));
         }
     }
     EXPECT_LT(worst, 1e-12);
@@ -241,7 +240,9 @@ TEST(TetrahedronOverlap, thinLayersAddUp)
         const OverlapTable::Sums sums = table.donorSums();
         for (int j = 0; j < table.nDonors(); ++j)
         {
-            EXPECT_NEAR(sums.volume[j] / donors.volume[j], 1, 1e-12 + 1e-15/thickness);
+            EXPECT_NEAR(
+                sums.volume[j] / donors.volume[j], 1,
+                1e-12 + 1e-15 / thickness);
         }
     }
 }
@@ -283,8 +284,10 @@ TEST(BoxTree, findsWhatASearchFinds)
 
 TEST(OverlapTable, sumsAreThoseOfTheCells)
 {
-    const CubeMesh donors(5, [](const Vector3& x) { return jitter(x, 0.03, 1); });
-    const CubeMesh targets(4, [](const Vector3& x) { return jitter(x, 0.04, 2); });
+    const CubeMesh donors(
+        5, [](const Vector3& x) { return jitter(x, 0.03, 1); });
+    const CubeMesh targets(
+        4, [](const Vector3& x) { return jitter(x, 0.04, 2); });
     const OverlapTable table(donors.tetrahedra, targets.tetrahedra);
     const auto ofDonors = table.donorSums();
     const auto ofTargets = table.targetSums();
@@ -339,9 +342,9 @@ TEST(OverlapTable, tetrahedraThatFoldOverCancel)
         donor.corners.push_back(part);
         donor.cell.push_back(0);
     }
-    const CubeMesh targets(4, [](const Vector3& x) { return jitter(x, 0.04, 2); });
-    const auto folded =
-        OverlapTable(donor, targets.tetrahedra).targetSums();
+    const CubeMesh targets(
+        4, [](const Vector3& x) { return jitter(x, 0.04, 2); });
+    const auto folded = OverlapTable(donor, targets.tetrahedra).targetSums();
 
     CellTetrahedra plain;
     plain.nCells = 1;

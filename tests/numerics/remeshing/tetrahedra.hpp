@@ -30,8 +30,8 @@ inline double signedVolume(const Corners& c)
 
 inline Corners unitCorners()
 {
-    return {Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(),
-            Vector3::UnitZ()};
+    return {
+        Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
 }
 
 
@@ -116,17 +116,15 @@ splitted(const Corners& whole, const int times, std::mt19937& generator)
 // points go where place puts them
 struct CubeMesh
 {
-    CubeMesh(
-        const int n, const std::function<Vector3(const Vector3&)>& place)
+    CubeMesh(const int n, const std::function<Vector3(const Vector3&)>& place)
     : n(n)
     {
-        static const int order[6][3] = {
-            {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+        static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                        {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
         tetrahedra.nCells = n * n * n;
         for (int cell = 0; cell < n * n * n; ++cell)
         {
-            const Eigen::Vector3i low(
-                cell % n, cell / n % n, cell / (n * n));
+            const Eigen::Vector3i low(cell % n, cell / n % n, cell / (n * n));
             for (int t = 0; t < 6; ++t)
             {
                 Eigen::Vector3i at = low;

@@ -1,0 +1,108 @@
+/*---------------------------------------------------------------------------*\
+SPDX-FileCopyrightText: 2026 The morphFoam authors
+SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "remeshSizes.H"
+#include "dictionaryChecks.H"
+#include "movedGeometry.H"
+#include "pointIOField.H"
+#include "referencePoints.H"
+#include "volFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const char* const sizeName = "remeshSize";
+
+
+//- points0 of the mesh, or its points
+static pointField referenceOf(const fvMesh& mesh)
+{
+    const fileName instance
+    (
+        mesh.time().findInstance
+        (
+            mesh.meshDir(), "points0", IOobject::READ_IF_PRESENT
+        )
+    );
+    referencePoints::checkFile(mesh, instance);
+    IOobject io
+    (
+        "points0",
+        instance,
+        polyMesh::meshSubDir,
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+    if (!returnReduce(io.typeHeaderOk<pointIOField>(true), andOp<bool>()))
+    {
+        return mesh.points();
+    }
+    const pointIOField points0(io);
+    dictionaryChecks::stopIf
+    (
+        points0.objectPath(),
+        points0.size() == mesh.nPoints()
+      ? string()
+      : string
+        (
+            "points0 is of another mesh: it has " + Foam::name(points0.size())
+          + " points, the mesh " + Foam::name(mesh.nPoints())
+          + "\n    Remove it"
+        )
+    );
+    return points0;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+Foam::volScalarField& Foam::remeshSizes::of(const fvMesh& mesh)
+{
+    if (mesh.foundObject<volScalarField>(sizeName))
+    {
+        return mesh.lookupObjectRef<volScalarField>(sizeName);
+    }
+    const IOobject io
+    (
+        sizeName,
+        mesh.time().timeName(),
+        mesh,
+        IOobject::READ_IF_PRESENT,
+        IOobject::AUTO_WRITE
+    );
+    if (IOobject(io).typeHeaderOk<volScalarField>(true))
+    {
+        return regIOobject::store(new volScalarField(io, mesh));
+    }
+
+    const movedGeometry geometry(mesh, referenceOf(mesh));
+    volScalarField* size = new volScalarField
+    (
+        io,
+        mesh,
+        dimensionedScalar(dimLength, Zero),
+        zeroGradientFvPatchScalarField::typeName
+    );
+    forAll(*size, celli)
+    {
+        const label parts = mesh.cells()[celli].size() == 4 ? 1 : 2;
+        (*size)[celli] = Foam::cbrt
+        (
+            max(geometry.cellVolumes()[celli], VSMALL)*6*Foam::sqrt(2.0)/parts
+        );
+    }
+    size->correctBoundaryConditions();
+    return regIOobject::store(size);
+}
+
+
+// ************************************************************************* //
