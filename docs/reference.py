@@ -30,7 +30,11 @@ DICTIONARIES = [
             "rigidMotion",
         ],
     ),
-    ("A group of controlPoints", "controlPointGroup", []),
+    (
+        "A group of controlPoints",
+        "controlPointGroup",
+        ["controlPointGroup", "controlPointGroupEntries"],
+    ),
     ("surface or target: a cylinder", "cylinderSurface", []),
     ("surface or target: others", "analyticSurface", ["slidingSurface"]),
     ("displacement: pointDisplacement", "fieldDisplacement", []),
@@ -53,7 +57,11 @@ DICTIONARIES = [
         "fileDisplacement",
         ["fileDisplacement", "tabulatedDisplacement"],
     ),
-    ("displacement: ffd", "ffdDisplacement", ["ffdDisplacement", "ffdBoxes"]),
+    (
+        "displacement: ffd",
+        "ffdDisplacement",
+        ["ffdDisplacement", "ffdBoxes", "ffdBoxesStages"],
+    ),
     (
         "displacement: sixDoFRigidBody",
         "sixDoFRigidBodyDisplacement",
@@ -67,13 +75,20 @@ DICTIONARIES = [
     (
         "ffdMotionSolverCoeffs",
         "ffdMotionSolver",
-        ["ffdMotionSolver", "ffdBoxes", "motionLimiter", "motionZone"],
+        [
+            "ffdMotionSolver",
+            "ffdBoxes",
+            "ffdBoxesStages",
+            "motionLimiter",
+            "motionZone",
+        ],
     ),
     (
         "A box of boxes",
         "ffdBox",
         [
             "ffdBox",
+            "ffdBoxEntries",
             "ffdBoxFaces",
             "ffdBoxSettings",
             "ffdDeformation",
@@ -89,7 +104,7 @@ DICTIONARIES = [
     (
         "constraints of shapes",
         "shapeConstraint",
-        ["shapeConstraint", "shapeConstraints"],
+        ["shapeConstraint", "shapeConstraintTypes", "shapeConstraints"],
     ),
     ("optimise, and system/optimiseDict", "optimiseSettings", []),
     ("keep: what stays as it is", "ffdCorrection", []),
@@ -141,7 +156,7 @@ READ_BY_OPENFOAM = {
 NOT_AN_ENTRY = {
     ("rigidMotion", "diffusivity"): "of OpenFOAM's solvers that deform",
     ("sixDoFRigidBody", "deltaT"): "in the file that a restart reads",
-    ("controlPointGroup", "n"): "written by OpenFOAM's own condition",
+    ("controlPointGroupEntries", "n"): "written by OpenFOAM's own condition",
     ("ffdFit", "boxes"): "the boxes of the dictionary",
     ("ffdFit", "origin"): "an entry of the box",
     ("ffdFit", "span"): "an entry of the box",
