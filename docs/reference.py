@@ -114,6 +114,7 @@ DICTIONARIES = [
         ["remeshSettings", "remeshEngine"],
     ),
     ("Function object motionControls", "motionControls", []),
+    ("Function object morphMetric", "morphMetric", []),
     ("Function object catalyst", "catalystFunctionObject", []),
     (
         "A channel of catalyst: mesh",
@@ -148,6 +149,7 @@ NOT_A_USERS = {
 # Entries that a base class of OpenFOAM reads
 READ_BY_OPENFOAM = {
     "motionControls": {"type", "region"},
+    "morphMetric": {"type", "region"},
     "catalystFunctionObject": {"type"},
     "analyticSurface": {"type"},
 }
