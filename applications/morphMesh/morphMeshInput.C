@@ -149,6 +149,8 @@ void Foam::morphMeshInput::selectTime(const argList& args, Time& runTime)
 
 void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionName)
 {
+    // Looking for a file reads its head, where any number may be
+    const untrapped numbers;
     const fileName local
     (
         regionName == polyMesh::defaultRegion ? word::null : regionName
@@ -162,8 +164,6 @@ void Foam::morphMeshInput::checkRegion(const Time& runTime, const word& regionNa
         meshDir,
         runTime
     );
-
-    const untrapped numbers;
     const bool found = io.typeHeaderOk<faceIOList>(false);
     if (!returnReduce(found, andOp<bool>()))
     {

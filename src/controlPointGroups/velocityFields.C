@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointPatchField.H"
 #include "StringStream.H"
 #include "velocityDisplacement.H"
+#include "untrapped.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -184,6 +185,7 @@ static string asGroups(const polyMesh& mesh, const othersField& field)
         false
     );
     IOobject header(file, file.name());
+    const untrapped numbers;
     if (!returnReduce(header.typeHeaderOk<localIOdictionary>(false), orOp<bool>()))
     {
         return string::null;

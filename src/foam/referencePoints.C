@@ -37,6 +37,7 @@ static string faultOfFile(const polyMesh& mesh, const fileName& instance)
         IOobject::NO_WRITE,
         false
     );
+    const untrapped numbers;
     const fileName path(io.objectPath());
     return
         exists(path) && !io.typeHeaderOk<pointIOField>(true)

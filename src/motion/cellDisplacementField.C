@@ -12,6 +12,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointDisplacementField.H"
 #include "syncTools.H"
 #include "zeroGradientPointPatchField.H"
+#include "untrapped.H"
 
 #include <algorithm>
 #include <cmath>
@@ -144,10 +145,13 @@ Foam::cellDisplacementField::cellDisplacementField
     written_(mesh.boundary().size(), false),
     warned_(false)
 {
-    IOobject file(whereItIs(mesh));
-    if (file.typeHeaderOk<volVectorField>(true))
     {
-        writeOpt() = IOobject::AUTO_WRITE;
+        const untrapped numbers;
+        IOobject file(whereItIs(mesh));
+        if (file.typeHeaderOk<volVectorField>(true))
+        {
+            writeOpt() = IOobject::AUTO_WRITE;
+        }
     }
     forget();
 

@@ -76,3 +76,21 @@ def test_a_time_that_is_none_is_refused(tmp_path, time):
     case = ffd_case(tmp_path, BOX, cells=(2, 2, 2))
     output = case.run("morphMesh", "-time", time, status=1)
     assert "-time" in output and f"'{time}'" in output
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    "file", ["faces", "points", "owner", "boundary", "pointZones"]
+)
+def test_no_number_in_the_head_of_a_file_is_a_signal(tmp_path, file, ranks):
+    """Which version a file has is of no consequence, whatever it is."""
+    case = rbf(tmp_path)
+    folder = "."
+    if ranks > 1:
+        case.decompose((2, 1, 1))
+        folder = "processor1"
+    path = case.path / folder / "constant/polyMesh" / file
+    text, n = re.subn(r"version +2.0;", "version 2e+150;", path.read_text())
+    assert n == 1
+    path.write_text(text)
+    case.run("morphMesh", ranks=ranks)

@@ -19,8 +19,7 @@ using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 
 // f of the eigenvalues in the directions of a basis; across, what is there
 Metric inBasis(
-    const Metric& m, const Basis& basis,
-    const std::function<double(double)>& f)
+    const Metric& m, const Basis& basis, const std::function<double(double)>& f)
 {
     const Eigen::MatrixXd part = basis.transpose() * m * basis;
     const Solver solver(part);
@@ -55,8 +54,7 @@ Sizes sizes(const Metric& m, const Basis& basis)
     const Eigen::MatrixXd part = basis.transpose() * m * basis;
     const Eigen::VectorXd values =
         Solver(part, Eigen::EigenvaluesOnly).eigenvalues();
-    return {
-        1 / std::sqrt(values.maxCoeff()), 1 / std::sqrt(values.minCoeff())};
+    return {1 / std::sqrt(values.maxCoeff()), 1 / std::sqrt(values.minCoeff())};
 }
 
 
@@ -66,14 +64,15 @@ double determinant(const Metric& m, const Basis& basis)
 }
 
 
-Metric optimal(
-    const Metric& absoluteHessian, const Basis& basis, const double p)
+Metric
+optimal(const Metric& absoluteHessian, const Basis& basis, const double p)
 {
     const double d = double(basis.cols());
     const double scale =
         std::pow(determinant(absoluteHessian, basis), -1 / (2 * p + d));
     return inBasis(
-        absoluteHessian, basis, [scale](double value) { return scale * value; });
+        absoluteHessian, basis,
+        [scale](double value) { return scale * value; });
 }
 
 

@@ -90,14 +90,13 @@ TEST(Metric, OptimalEquidistributesTheError)
             {
                 const Metric h = turned(
                     next(random), next(random), 1,
-                    d == 2 ? Vector3(0, 0, 1) : Vector3(1, 1, 0),
-                    next(random));
+                    d == 2 ? Vector3(0, 0, 1) : Vector3(1, 1, 0), next(random));
                 const Metric m = optimal(h, basis, p);
                 const double error = std::pow(
                     determinant(h, basis) / determinant(m, basis), 1 / d);
                 // Error^p per cell of volume det(M)^(-1/2)
-                const double share = std::pow(error, p)
-                    / std::sqrt(determinant(m, basis));
+                const double share =
+                    std::pow(error, p) / std::sqrt(determinant(m, basis));
                 first = i == 0 ? share : first;
                 EXPECT_NEAR(share / first, 1, 1e-12);
             }
@@ -157,8 +156,7 @@ TEST(Metric, SizesGrowByTheFactor)
     const double growth = 1.2;
     const Metric m = Vector3(1e4, 1e4, 1e4).asDiagonal();
     const double far = 0.5;
-    const double h =
-        1 / std::sqrt(grown(m, Vector3(far, 0, 0), growth)(0, 0));
+    const double h = 1 / std::sqrt(grown(m, Vector3(far, 0, 0), growth)(0, 0));
     // h(x) = h0 + ln(growth) x
     EXPECT_NEAR(h, 0.01 + std::log(growth) * far, 1e-13);
 }
