@@ -54,8 +54,13 @@ Foam::tetrahedralMesh Foam::madlibEngine::adapt(const tetrahedralMesh&) const
 namespace Foam
 {
 
-//- Rounds of collapses, swaps and splits, at most
-static const label maxRounds = 20;
+//- Rounds of collapses, swaps and splits, at most, and the changes, as a part of
+//  all tetrahedra, that a round has to make for another one
+static const label maxRounds = 12;
+static const scalar enough = 0.02;
+
+//- Rounds of swaps alone, after that
+static const label maxSwaps = 5;
 
 //- Tags of MAdLib's model: its surface 1 is that of all fixed faces
 static const int fixedTag = 1;
@@ -380,6 +385,7 @@ Foam::tetrahedralMesh Foam::madlibEngine::adapt
     MAd::MeshAdapter adapter(mesh.mesh(), &sizes);
     adapter.setVerbosity(-1);
     mesh.constrain(adapter, given);
+    adapter.setEdgeLenSqBounds(0.5, 2);
     adapter.setCollapseOnBoundary(true, 1e-12);
     adapter.setSwapOnBoundary(true, 1e-12);
     adapter.setNoSwapQuality(0.4);
@@ -388,15 +394,22 @@ Foam::tetrahedralMesh Foam::madlibEngine::adapt
     {
         label nChanges = adapter.eCollapseLoop();
         nChanges += adapter.edgeSwapLoop();
-        nChanges += adapter.faceSwapLoop();
         nChanges += adapter.eSplitLoop();
         MAd::M_clean(mesh.mesh());
+        if (nChanges < enough*MAd::M_numTets(mesh.mesh()))
+        {
+            break;
+        }
+    }
+    for (label round = 0; round < maxSwaps; ++round)
+    {
+        label nChanges = adapter.edgeSwapLoop();
+        nChanges += adapter.faceSwapLoop();
         if (nChanges == 0)
         {
             break;
         }
     }
-    adapter.optimiseElementShape();
     MAd::M_clean(mesh.mesh());
     return mesh.result(given.points.size());
 }

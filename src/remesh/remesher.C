@@ -4,7 +4,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "remesher.H"
+#include "clockTime.H"
 #include "fvMesh.H"
+#include "plainText.H"
 #include "remeshCavity.H"
 #include "remeshEngine.H"
 #include "tetrahedraSmoother.H"
@@ -115,6 +117,7 @@ void Foam::remesher::make(const labelUList& cells, const scalarField& sizes)
             << exit(FatalIOError);
     }
 
+    const clockTime clock;
     made_ = remeshEngine::New(settings_.dict)->adapt(given);
     DynamicList<vector> normals;
     for (label i = 0; i < planes_().size(); ++i)
@@ -150,6 +153,7 @@ void Foam::remesher::make(const labelUList& cells, const scalarField& sizes)
     {
         made_.points = made;
     }
+    report_.time = clock.elapsedTime();
     report_.nReplaced = cells.size();
     report_.nCut = given.tets.size();
     report_.nNew = made_.tets.size();
@@ -217,10 +221,13 @@ bool Foam::remesher::prepare(const scalarField& sizes)
         nBefore = cells.size();
         report_.layers = layers;
         make(cells, wanted);
-        Info<< "remesh: " << report_.nReplaced << " cells, "
+        using plainText::rounded;
+        Info<< "remesh: " << report_.nReplaced << " cells, cut into "
             << report_.nCut << " tetrahedra -> " << report_.nNew
-            << ", non-orthogonality " << report_.nonOrthogonality
-            << ", skewness " << report_.skewness << endl;
+            << ", non-orthogonality "
+            << rounded(report_.nonOrthogonality).c_str() << ", skewness "
+            << rounded(report_.skewness).c_str() << "; "
+            << rounded(report_.time).c_str() << " s" << endl;
         if (!exceeds(report_))
         {
             break;
