@@ -236,9 +236,8 @@ static bool remesh(const argList& args)
     const meshQuality before(mesh, mesh.points());
     const scalar volume = gSum(mesh.V());
     const bool any = remeshing.prepare(sizes);
-    const remesher::report& found = remeshing.found();
-    Info<< "remesh: " << found.nBad << " cells exceed the limits, "
-        << found.nBadKept << " of them are kept" << endl;
+    Info<< "remesh: " << remeshing.nBad() << " cells exceed the limits, "
+        << remeshing.nBadKept() << " of them are kept" << endl;
     if (!any)
     {
         Info<< "There is nothing to replace, nothing is written" << nl << nl
@@ -247,10 +246,10 @@ static bool remesh(const argList& args)
     }
     if (!remeshing.withinLimits())
     {
+        const cavityFaces::figures& found = remeshing.found();
         FatalIOErrorInFunction(settings.dict)
-            << "New cells exceed the limits after " << settings.passes
-            << " passes, the last with " << found.layers << " layers:"
-            << " non-orthogonality " << found.nonOrthogonality << " (limit "
+            << "New cells exceed the limits in all of " << settings.passes
+            << " passes; the best has non-orthogonality " << found.nonOrthogonality << " (limit "
             << settings.nonOrthogonality << "), skewness " << found.skewness
             << " (limit " << settings.skewness << "); nothing is written" << nl
             << "    Raise the limits, keep fewer layers (keepLayers), or change"

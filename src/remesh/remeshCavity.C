@@ -15,7 +15,8 @@ Foam::remeshCavity::remeshCavity
 (
     const polyMesh& mesh,
     const remeshSettings& settings,
-    const labelUList& patches
+    const labelUList& patches,
+    const bitSet& also
 )
 :
     mesh_(mesh),
@@ -23,6 +24,8 @@ Foam::remeshCavity::remeshCavity
     kept_(mesh.nCells()),
     bad_(mesh.nCells())
 {
+    bad_ |= also;
+
     if (settings.keepLayers > 0)
     {
         bitSet atPatches(mesh.nPoints());

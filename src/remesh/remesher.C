@@ -97,15 +97,18 @@ void Foam::remesher::checkZones() const
 }
 
 
-void Foam::remesher::make(const labelUList& cells, const scalarField& sizes)
+Foam::autoPtr<Foam::remesher::attempt> Foam::remesher::make
+(
+    const labelUList& cells,
+    const scalarField& sizes
+) const
 {
-    faces_.clear();
-    cavity_.reset
-    (
-        new cavityTetrahedra(mesh_, planes_(), cells, sizes)
-    );
-    const tetrahedralMesh& given = cavity_().given();
-    const labelList& blind = cavity_().cut().blindCells();
+    const clockTime clock;
+    autoPtr<attempt> made(new attempt);
+    attempt& a = made();
+    a.cavity.reset(new cavityTetrahedra(mesh_, planes_(), cells, sizes));
+    const tetrahedralMesh& given = a.cavity().given();
+    const labelList& blind = a.cavity().cut().blindCells();
     if (!blind.empty())
     {
         FatalIOErrorInFunction(settings_.dict)
@@ -117,57 +120,57 @@ void Foam::remesher::make(const labelUList& cells, const scalarField& sizes)
             << exit(FatalIOError);
     }
 
-    const clockTime clock;
-    made_ = remeshEngine::New(settings_.dict)->adapt(given);
+    a.tetrahedra = remeshEngine::New(settings_.dict)->adapt(given);
+    a.faces.reset(new cavityFaces(a.cavity(), a.tetrahedra));
+    if (!a.faces().fault().empty())
+    {
+        FatalIOErrorInFunction(settings_.dict)
+            << "What the engine made cannot be used: "
+            << a.faces().fault().c_str() << nl
+            << "    Try another engine, more layers, or region all" << nl
+            << exit(FatalIOError);
+    }
+
+    // Optimised points are taken where they are better
     DynamicList<vector> normals;
     for (label i = 0; i < planes_().size(); ++i)
     {
         normals.append(planes_().normal(i));
     }
-    faces_.reset(new cavityFaces(cavity_(), made_));
-    if (!faces_().fault().empty())
-    {
-        FatalIOErrorInFunction(settings_.dict)
-            << "What the engine made cannot be used: "
-            << faces_().fault().c_str() << nl
-            << "    Try another engine, more layers, or region all" << nl
-            << exit(FatalIOError);
-    }
-    const pointField made(made_.points);
-    const cavityFaces::figures before(faces_().quality());
-    made_.points = tetrahedraSmoother::smoothed
+    const pointField points(a.tetrahedra.points);
+    a.quality = a.faces().quality();
+    a.tetrahedra.points = tetrahedraSmoother::smoothed
     (
-        given, made_, normals, smoothing
+        given, a.tetrahedra, normals, smoothing
     );
-    const cavityFaces::figures after(faces_().quality());
-    const auto worst = [&](const cavityFaces::figures& q)
+    const cavityFaces::figures after(a.faces().quality());
+    if (worst(after) < worst(a.quality))
     {
-        return max
-        (
-            q.nonOrthogonality/settings_.nonOrthogonality,
-            q.skewness/settings_.skewness
-        );
-    };
-    const bool better = worst(after) < worst(before);
-    if (!better)
-    {
-        made_.points = made;
+        a.quality = after;
     }
-    report_.time = clock.elapsedTime();
-    report_.nReplaced = cells.size();
-    report_.nCut = given.tets.size();
-    report_.nNew = made_.tets.size();
-    report_.nonOrthogonality =
-        better ? after.nonOrthogonality : before.nonOrthogonality;
-    report_.skewness = better ? after.skewness : before.skewness;
+    else
+    {
+        a.tetrahedra.points = points;
+    }
+
+    using plainText::rounded;
+    Info<< "remesh: " << cells.size() << " cells, cut into "
+        << given.tets.size() << " tetrahedra -> " << a.tetrahedra.tets.size()
+        << ", non-orthogonality "
+        << rounded(a.quality.nonOrthogonality).c_str() << ", skewness "
+        << rounded(a.quality.skewness).c_str() << "; "
+        << rounded(clock.elapsedTime()).c_str() << " s" << endl;
+    return made;
 }
 
 
-bool Foam::remesher::exceeds(const report& r) const
+Foam::scalar Foam::remesher::worst(const cavityFaces::figures& q) const
 {
-    return
-        r.nonOrthogonality > settings_.nonOrthogonality
-     || r.skewness > settings_.skewness;
+    return max
+    (
+        q.nonOrthogonality/settings_.nonOrthogonality,
+        q.skewness/settings_.skewness
+    );
 }
 
 
@@ -189,60 +192,59 @@ void Foam::remesher::keep(const labelUList& patches)
 }
 
 
-bool Foam::remesher::prepare(const scalarField& sizes)
+bool Foam::remesher::prepare
+(
+    const scalarField& sizes,
+    const bitSet& also
+)
 {
     checkMesh();
     checkZones();
-    const remeshCavity cavity(mesh_, settings_, keepPatches_.sortedToc());
-    report_ = report();
-    report_.nBad = cavity.bad().count();
-    report_.nBadKept = (cavity.bad() & cavity.kept()).count();
-    if
+    attempt_.clear();
+    planes_.reset(new planePatches(mesh_));
+    const remeshCavity cavity
     (
-        settings_.region == remeshSettings::extent::cavity
-     && report_.nBad == report_.nBadKept
-    )
+        mesh_, settings_, keepPatches_.sortedToc(), also
+    );
+    nBad_ = cavity.bad().count();
+    nBadKept_ = (cavity.bad() & cavity.kept()).count();
+    const bool all = settings_.region == remeshSettings::extent::all;
+    if (!all && nBad_ == nBadKept_)
     {
         return false;
     }
 
-    planes_.reset(new planePatches(mesh_));
     const scalarField wanted(settings_.sizeFactor*sizes);
-    label nBefore = -1;
+    label nBefore = 0;
     for (label pass = 0; pass < settings_.passes; ++pass)
     {
-        const label layers = settings_.layers << pass;
-        const labelList cells(cavity.cells(layers));
+        const labelList cells(cavity.cells(settings_.layers << pass));
         // More layers change nothing where there are no more cells
-        if (cells.empty() || cells.size() == nBefore)
+        if (cells.size() == nBefore)
         {
             break;
         }
         nBefore = cells.size();
-        report_.layers = layers;
-        make(cells, wanted);
-        using plainText::rounded;
-        Info<< "remesh: " << report_.nReplaced << " cells, cut into "
-            << report_.nCut << " tetrahedra -> " << report_.nNew
-            << ", non-orthogonality "
-            << rounded(report_.nonOrthogonality).c_str() << ", skewness "
-            << rounded(report_.skewness).c_str() << "; "
-            << rounded(report_.time).c_str() << " s" << endl;
-        if (!exceeds(report_))
+        autoPtr<attempt> made(make(cells, wanted));
+        if (!attempt_.valid() || worst(made().quality) < worst(found()))
+        {
+            attempt_ = std::move(made);
+        }
+        if (withinLimits())
         {
             break;
         }
     }
-    if (nBefore < 0)
+    if (!attempt_.valid())
     {
         return false;
     }
     map_ = remeshMap();
-    map_.before.points = cavity_().given().points;
-    map_.before.tets = cavity_().given().tets;
-    map_.before.cells = cavity_().cut().cells();
-    map_.after.points = made_.points;
-    map_.after.tets = made_.tets;
+    map_.before.points = attempt_().cavity().given().points;
+    map_.before.tets = attempt_().cavity().given().tets;
+    map_.before.cells = attempt_().cavity().cut().cells();
+    map_.after.points = attempt_().tetrahedra.points;
+    map_.after.tets = attempt_().tetrahedra.tets;
     return true;
 }
 

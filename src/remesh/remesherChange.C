@@ -40,7 +40,7 @@ Foam::labelList Foam::remesher::addPoints(polyTopoChange& change) const
 {
     // The old mesh's points of these cells come first among the given ones
     DynamicList<label> old;
-    for (const label pointi : cavity_().cut().meshPoints())
+    for (const label pointi : attempt_().cavity().cut().meshPoints())
     {
         if (pointi >= 0)
         {
@@ -49,17 +49,17 @@ Foam::labelList Foam::remesher::addPoints(polyTopoChange& change) const
     }
     const labelList near
     (
-        nearest(made_.points, pointField(mesh_.points(), old))
+        nearest(attempt_().tetrahedra.points, pointField(mesh_.points(), old))
     );
 
-    labelList labels(made_.points.size());
+    labelList labels(attempt_().tetrahedra.points.size());
     bitSet stays(mesh_.nPoints());
     forAll(labels, i)
     {
-        const label origin = made_.origin[i];
+        const label origin = attempt_().tetrahedra.origin[i];
         const label pointi =
-            origin >= 0 ? cavity_().cut().meshPoints()[origin] : -1;
-        if (pointi >= 0 && mesh_.points()[pointi] == made_.points[i])
+            origin >= 0 ? attempt_().cavity().cut().meshPoints()[origin] : -1;
+        if (pointi >= 0 && mesh_.points()[pointi] == attempt_().tetrahedra.points[i])
         {
             labels[i] = pointi;
             stays.set(pointi);
@@ -68,7 +68,7 @@ Foam::labelList Foam::remesher::addPoints(polyTopoChange& change) const
         {
             labels[i] = change.addPoint
             (
-                made_.points[i], old[near[i]], -1, true
+                attempt_().tetrahedra.points[i], old[near[i]], -1, true
             );
         }
     }
@@ -85,15 +85,15 @@ Foam::labelList Foam::remesher::addPoints(polyTopoChange& change) const
 
 Foam::labelList Foam::remesher::addCells(polyTopoChange& change) const
 {
-    const labelList& cells = cavity_().cells();
-    labelList labels(made_.tets.size());
+    const labelList& cells = attempt_().cavity().cells();
+    labelList labels(attempt_().tetrahedra.tets.size());
     pointField centres(labels.size());
-    forAll(made_.tets, i)
+    forAll(attempt_().tetrahedra.tets, i)
     {
         centres[i] = Zero;
-        for (const label pointi : made_.tets[i])
+        for (const label pointi : attempt_().tetrahedra.tets[i])
         {
-            centres[i] += 0.25*made_.points[pointi];
+            centres[i] += 0.25*attempt_().tetrahedra.points[pointi];
         }
     }
 
@@ -104,9 +104,9 @@ Foam::labelList Foam::remesher::addCells(polyTopoChange& change) const
         old(mesh_.cellZones().whichZone(celli)).append(celli);
     }
     Map<DynamicList<label>> made;
-    forAll(made_.regions, i)
+    forAll(attempt_().tetrahedra.regions, i)
     {
-        made(made_.regions[i] - 1).append(i);
+        made(attempt_().tetrahedra.regions[i] - 1).append(i);
     }
     labelList masters(labels.size());
     forAllConstIters(made, iter)
@@ -129,7 +129,7 @@ Foam::labelList Foam::remesher::addCells(polyTopoChange& change) const
     {
         labels[i] = change.addCell
         (
-            -1, -1, -1, masters[i], made_.regions[i] - 1
+            -1, -1, -1, masters[i], attempt_().tetrahedra.regions[i] - 1
         );
     }
     for (const label celli : cells)
@@ -148,13 +148,13 @@ void Foam::remesher::addFaces
 ) const
 {
     labelHashSet old;
-    for (const label celli : cavity_().cells())
+    for (const label celli : attempt_().cavity().cells())
     {
         old.insert(mesh_.cells()[celli]);
     }
     // The first triangle of a face takes its place
     labelHashSet taken;
-    for (const cavityFaces::newFace& f : faces_().faces())
+    for (const cavityFaces::newFace& f : attempt_().faces().faces())
     {
         const label facei = f.oldFace;
         const auto cellOf = [&](const label tet, const label celli)
@@ -224,7 +224,7 @@ void Foam::remesher::setMap(const mapPolyMesh& changed)
 {
     // New cells come last, in their own order
     const label nCells = changed.cellMap().size();
-    const label nNew = made_.tets.size();
+    const label nNew = attempt_().tetrahedra.tets.size();
     map_.after.cells = identity(nNew, nCells - nNew);
     map_.cellMap = changed.cellMap();
     for (const label celli : map_.after.cells)
