@@ -111,7 +111,7 @@ DICTIONARIES = [
     (
         "remesh: cells replaced by tetrahedra",
         "remeshSettings",
-        ["remeshSettings", "remeshEngine"],
+        ["remeshSettings", "remeshEngine", "externalEngine"],
     ),
     ("Function object motionControls", "motionControls", []),
     ("Function object morphMetric", "morphMetric", []),
