@@ -12,7 +12,7 @@ import re
 import numpy as np
 import pytest
 
-from rbfCase import groups, points_at, rbf_case, reference, ulps
+from rbfCase import CUBE, groups, points_at, rbf_case, reference, side, ulps
 
 CELLS = (10, 4, 4)
 
@@ -81,3 +81,59 @@ def test_ranks_agree_to_the_last_bit(tmp_path, ranks):
     serial, _ = run(tmp_path / "serial", coeffs)
     case, _ = run(tmp_path / "parallel", coeffs, ranks)
     assert np.array_equal(points_at(case, 1), points_at(serial, 1))
+
+
+@pytest.mark.parametrize(
+    "kind, images",
+    [("cyclic", "auto"), ("cyclic", "no"), ("cyclicAMI", "auto")],
+)
+def test_periodic_sides_match_after_it(tmp_path, kind, images):
+    """Point for point, by the period; the same on two ranks."""
+    patches = {
+        **CUBE,
+        "yMin": f"{kind}; neighbourPatch yMax; transform translational;"
+        " separationVector (0 1 0);",
+        "yMax": f"{kind}; neighbourPatch yMin; transform translational;"
+        " separationVector (0 -1 0);",
+    }
+    body = " ".join(
+        f"({x} {y} {z})"
+        for x in (0.4, 0.6)
+        for y in (0.25, 0.5, 0.75)
+        for z in (0.25, 0.75)
+    )
+    coeffs = (
+        f"supportRadius 0.8; images {images}; subSteps 1;"
+        + groups(
+            body=f"type moving; points ({body}); displacement {{ type"
+            " solidBody; solidBodyMotionFunction rotatingMotion;"
+            " rotatingMotionCoeffs { origin (0.5 0.5 0.5); axis (0 1 0);"
+            " omega 1.2; } }",
+            ends="type fixed; patches (xMin xMax);",
+            sides="type sliding; patches (zMin zMax);",
+        )
+        + "optimise { limits { nonOrthogonality 40; } iterations 60; }"
+    )
+    results = []
+    for ranks, split in ((1, None), (2, (1, 2, 1))):
+        case = rbf_case(
+            tmp_path / str(ranks),
+            coeffs=coeffs,
+            cells=(10, 4, 4),
+            patches=patches,
+            control={"digits": 17},
+        )
+        if split:
+            case.decompose(split)
+        log = case.run("morphMesh", "-time", "1", ranks=ranks)
+        assert re.search(r"optimise: non-orthogonality .* iterations", log)
+        results.append(points_at(case, 1))
+    x, y = reference(case), results[0]
+    pair = {}
+    for i in np.flatnonzero(side(x, "yMin") | side(x, "yMax")):
+        pair.setdefault((x[i, 0].round(9), x[i, 2].round(9)), []).append(i)
+    assert len(pair) == 11 * 5
+    for a, b in pair.values():
+        gap = np.abs(np.abs(y[a] - y[b]) - [0, 1, 0]).max()
+        assert gap < 1e-14
+    np.testing.assert_allclose(results[1], y, rtol=0, atol=1e-10)
