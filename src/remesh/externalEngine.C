@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "externalEngine.H"
 #include "addToRunTimeSelectionTable.H"
 #include "boundBox.H"
+#include "dictionaryChecks.H"
 #include "indexedOctree.H"
 #include "OSspecific.H"
 #include "treeDataPoint.H"
@@ -280,7 +281,13 @@ void Foam::externalEngine::findOrigins
 Foam::externalEngine::externalEngine(const dictionary& dict)
 :
     remeshEngine(dict),
-    command_(dict.get<string>("command"))
+    command_
+    (
+        dictionaryChecks::naming
+        (
+            dict, "command", [&]() { return dict.get<string>("command"); }
+        )
+    )
 {}
 
 

@@ -120,7 +120,7 @@ Foam::autoPtr<Foam::remesher::attempt> Foam::remesher::make
             << exit(FatalIOError);
     }
 
-    a.tetrahedra = remeshEngine::New(settings_.dict)->adapt(given);
+    a.tetrahedra = engine_().adapt(given);
     a.faces.reset(new cavityFaces(a.cavity(), a.tetrahedra));
     if (!a.faces().fault().empty())
     {
@@ -180,8 +180,14 @@ Foam::remesher::remesher(fvMesh& mesh, const remeshSettings& settings)
 :
     mesh_(mesh),
     settings_(settings),
+    engine_(remeshEngine::New(settings.dict)),
     keepPatches_(settings.keepPatches(mesh))
 {}
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::remesher::~remesher() = default;
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
