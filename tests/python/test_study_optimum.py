@@ -403,3 +403,30 @@ def test_the_report_says_which_designs_are_samples(tmp_path):
     page = (study.folder / "report.html").read_text()
     assert "25 sampled and 1 verification" in page
     assert "fitted to 26 designs" in page
+
+
+def test_a_front_has_no_values_but_those_allowed():
+    """Of (x - 1.3)^2 + n over the whole n: the least is at n = 0, and with
+    -n against it every n is on the front."""
+    allowed = np.arange(5.0)
+
+    def nearest(rows):
+        whole = np.abs(rows[:, 1, None] - allowed).argmin(axis=1)
+        return np.stack([rows[:, 0], allowed[whole]], axis=1)
+
+    def evaluate(rows):
+        f = (rows[:, 0] - 1.3) ** 2 + rows[:, 1]
+        return np.stack([f, -rows[:, 1]], axis=1), np.zeros(len(rows))
+
+    found, values = pareto.nsga2(
+        evaluate,
+        np.array([0.0, 0.0]),
+        np.array([3.0, 4.0]),
+        [-1, -1],
+        100,
+        100,
+        1,
+        nearest,
+    )
+    assert np.unique(found[:, 1]).tolist() == allowed.tolist()
+    np.testing.assert_allclose(found[:, 0], 1.3, atol=0.05)

@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 from study_case import make_study, read
 
-from morphfoam.study import designs, sample, sampling
+from morphfoam.study import case_folder, designs, sample, sampling
 from morphfoam.study.errors import StudyError
 
 CUBE = """
@@ -245,3 +245,97 @@ def test_a_table_that_will_not_do_is_named(tmp_path, text, said):
     )
     with pytest.raises(StudyError, match=said):
         sampling.sample(study, [])
+
+
+WHOLE = (
+    "e: {bounds: [0.09, 1.26], baseline: 0.61}",
+    "e: {bounds: [1, 5], step: 1, baseline: 3}",
+)
+SOME = (
+    "E: {bounds: [0.081, 1.44], baseline: 0.87}",
+    "E: {values: [1.44, 0.2, 0.87], baseline: 0.87}",
+)
+
+
+@pytest.mark.parametrize("method", ["latinHypercube", "sobol"])
+def test_parameters_with_certain_values_have_no_others(tmp_path, method):
+    """Each as often as the others, to one, in a Latin hypercube."""
+    one = study(tmp_path, WHOLE, SOME, ("latinHypercube", method))
+    points = sampled(one)
+    assert len(np.unique(points, axis=0)) == 30
+    for column, values in ((1, [1, 2, 3, 4, 5]), (2, [0.2, 0.87, 1.44])):
+        found, counts = np.unique(points[:, column], return_counts=True)
+        assert found.tolist() == values
+        if method == "latinHypercube":
+            assert np.ptp(counts) <= 1
+    assert len(np.unique(points[:, 0])) == 30
+    more = study(
+        tmp_path,
+        WHOLE,
+        SOME,
+        ("designs: 30", "designs: 45"),
+        ("latinHypercube", method),
+    )
+    added = sampled(more, points)
+    assert len(added) == 15
+    assert np.isin(added[:, 1], [1, 2, 3, 4, 5]).all()
+
+
+def test_designs_of_certain_values_alone_are_all_different(tmp_path):
+    all_of_them = [
+        (
+            "h: {bounds: [0.045, 0.3], baseline: 0.15}",
+            "h: {values: [1, 2], baseline: 1}",
+        ),
+        WHOLE,
+        SOME,
+        ("constraints: []", "constraints: [e <= 4]"),
+    ]
+    one = study(tmp_path, *all_of_them, ("designs: 30", "designs: 24"))
+    points = sampled(one)
+    assert len(np.unique(points, axis=0)) == 24
+    assert one.feasible(points).all()
+    with pytest.raises(StudyError, match="make 24 designs"):
+        sampled(study(tmp_path, *all_of_them, ("designs: 30", "designs: 25")))
+    grid = study(
+        tmp_path,
+        *all_of_them,
+        (
+            "{method: latinHypercube, designs: 30, seed: 3}",
+            "{method: factorial, levels: 9}",
+        ),
+    )
+    assert len(np.unique(sampled(grid), axis=0)) == 24
+
+
+@pytest.mark.parametrize(
+    "range_, said",
+    [
+        ("values: [1], baseline: 1", "two numbers or more"),
+        ("values: [1, 2], bounds: [1, 2], baseline: 1", "values and bounds"),
+        ("values: [1, 2], baseline: 1.5", "none of the values 1 2"),
+        ("bounds: [0, 1], step: 0.3, baseline: 0", "must divide the bounds"),
+        ("bounds: [0, 1], step: 0, baseline: 0", "must divide the bounds"),
+        ("bounds: [0, 1], step: 0.5, baseline: 0.4", "none of the values"),
+    ],
+)
+def test_values_that_will_not_do_are_errors(tmp_path, range_, said):
+    with pytest.raises(StudyError, match=said):
+        study(tmp_path, ("bounds: [0.045, 0.3], baseline: 0.15", range_))
+
+
+def test_whole_numbers_are_written_without_a_point(tmp_path):
+    one = study(tmp_path, WHOLE, SOME)
+    case_folder.write_parameters(one, tmp_path, {"h": 0.1, "e": 4.0, "E": 0.2})
+    words = (tmp_path / "parameters").read_text().split()
+    assert words[words.index("e") + 1] == "4;"
+    assert words[words.index("E") + 1] == "0.2;"
+
+
+def test_a_descent_leaves_them_at_the_baseline(tmp_path):
+    head = "responses:"
+    descend = "descend: {objective: {h1: minimise}%s}\nresponses:"
+    one = study(tmp_path, WHOLE, (head, descend % ""))
+    assert one.descend.parameters == ["h", "E"]
+    with pytest.raises(StudyError, match="e has certain values only"):
+        study(tmp_path, WHOLE, (head, descend % ", parameters: [h, e]"))

@@ -203,15 +203,13 @@ def replace_fields(source, target):
 
 
 def parameters_text(study, values):
-    lines = [
-        f"{name:<15} {float(value)!r};\n" for name, value in values.items()
-    ]
+    lines = [f"{name:<15} {value!r};\n" for name, value in values.items()]
     return "// Written by morphStudy for this design\n" + "".join(lines)
 
 
 def write_parameters(study, case, parameters):
     """The design's values: the file of parameters, and the entries."""
-    values = study.values(parameters)
+    values = study.as_written(study.values(parameters))
     if study.parameters_file:
         path = case / study.parameters_file
         path.parent.mkdir(parents=True, exist_ok=True)

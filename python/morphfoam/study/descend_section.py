@@ -133,8 +133,21 @@ def choose(item, key, default, words):
 
 
 def read_parameters(item, study):
-    names = item.items("parameters", study.names)
+    names = item.items(
+        "parameters", [n for n in study.names if n not in study.discrete]
+    )
+    if not names:
+        raise StudyError(
+            "descend: all parameters have certain values only, and a descent"
+            " moves between values. Use optimise or infill"
+        )
     for name in names:
+        if name in study.discrete:
+            raise StudyError(
+                f"{item.at('parameters')}: {name} has certain values only, and"
+                " a descent moves between values. Leave it out, and it stays"
+                " at the baseline's"
+            )
         if name not in study.names:
             raise StudyError(
                 f"{item.at('parameters')}: there is no parameter {name}. The"

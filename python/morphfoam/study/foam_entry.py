@@ -104,4 +104,4 @@ def number(text, path):
 def replaced(text, path, value):
     """The file with this number, every digit of it."""
     start, end = number(text, path)
-    return text[:start] + repr(float(value)) + text[end:]
+    return text[:start] + repr(value) + text[end:]

@@ -153,6 +153,7 @@ class State:
                 wanted.population,
                 wanted.generations,
                 wanted.seed,
+                study.nearest,
             )
         except pareto.Infeasible as error:
             return error.point, np.inf

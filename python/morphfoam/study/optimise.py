@@ -124,6 +124,7 @@ def front(study, found, likely):
             wanted.population,
             wanted.generations,
             wanted.seed,
+            study.nearest,
         )
     except pareto.Infeasible as error:
         raise StudyError(

@@ -30,11 +30,21 @@ class Infeasible(Exception):
         self.point = np.array(point)
 
 
-def nsga2(evaluate, lows, highs, signs, population, generations, seed):
+def nsga2(
+    evaluate,
+    lows,
+    highs,
+    signs,
+    population,
+    generations,
+    seed,
+    nearest=np.asarray,
+):
     """The front: points (rows) and objectives. Raises Infeasible.
 
     evaluate   rows of points -> rows of objectives, violation of each row
     signs      +1 for an objective to maximise, -1 to minimise
+    nearest    rows of points -> the nearest ones that may be taken
     """
     from deap import base, tools
 
@@ -47,7 +57,10 @@ def nsga2(evaluate, lows, highs, signs, population, generations, seed):
             self.fitness = Fitness()
 
     def rate(individuals):
-        objectives, violation = evaluate(np.array(individuals))
+        allowed = nearest(np.array(individuals))
+        for item, row in zip(individuals, allowed):
+            item[:] = map(float, row)
+        objectives, violation = evaluate(allowed)
         for item, values, missed in zip(individuals, objectives, violation):
             if missed > 0:
                 values = -np.array(signs) * INFEASIBLE * (1 + missed)

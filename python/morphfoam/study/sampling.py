@@ -18,6 +18,7 @@ Computers & Geosciences 32, 1378-1388, doi 10.1016/j.cageo.2005.12.009).
 
 import csv
 import itertools
+import math
 
 import numpy as np
 from scipy.stats import qmc
@@ -33,14 +34,34 @@ EXCHANGES = 20000
 def sample(study, existing):
     """The points to add to the existing ones, as the study file asks."""
     existing = np.asarray(existing, dtype=float).reshape(-1, len(study.names))
+    if study.sampling.method in ("latinHypercube", "sobol"):
+        check_enough(study)
     return METHODS[study.sampling.method](study, existing)
+
+
+def check_enough(study):
+    """Where all parameters have certain values only, there may be fewer designs
+    than are asked for."""
+    if len(study.discrete) < len(study.names):
+        return
+    counts = [len(p.values) for p in study.parameters]
+    if math.prod(counts) > PROBES:
+        return
+    grid = itertools.product(*(p.values for p in study.parameters))
+    there_are = int(study.feasible(np.array(list(grid))).sum())
+    if study.sampling.designs > there_are:
+        raise StudyError(
+            f"sampling/designs is {study.sampling.designs}, but the values of"
+            f" the parameters make {there_are} designs that keep to all"
+            f" constraints. Use {there_are}, or the method factorial"
+        )
 
 
 def feasible_probes(study):
     """Feasible points, uniformly spread, and their share of the box."""
     random = np.random.default_rng(0)
     unit = random.random((PROBES, len(study.names)))
-    points = study.lows + unit * (study.highs - study.lows)
+    points = study.spread(study.lows + unit * (study.highs - study.lows))
     points = points[study.feasible(points)]
     if not len(points):
         raise StudyError(
@@ -71,9 +92,13 @@ def missing(study, existing):
 def factorial(study, existing):
     """The grid, without what breaks a constraint."""
     axes = [
-        [(p.low + p.high) / 2]
-        if study.sampling.levels[p.name] == 1
-        else np.linspace(p.low, p.high, study.sampling.levels[p.name])
+        np.unique(
+            p.nearest(
+                [(p.low + p.high) / 2]
+                if study.sampling.levels[p.name] == 1
+                else np.linspace(p.low, p.high, study.sampling.levels[p.name])
+            )
+        )
         for p in study.parameters
     ]
     grid = np.array(list(itertools.product(*axes)))
@@ -94,14 +119,13 @@ def sobol(study, existing):
     sequence = qmc.Sobol(len(study.names), seed=study.sampling.seed)
     added, block = [], 64
     while len(added) < missing(study, existing):
-        points = study.lows + sequence.random(block) * (
-            study.highs - study.lows
+        points = study.spread(
+            study.lows + sequence.random(block) * (study.highs - study.lows)
         )
-        added += [
-            p
-            for p in points[study.feasible(points)]
-            if is_new(p, existing, study)
-        ]
+        for p in points[study.feasible(points)]:
+            there = np.vstack([existing, *added]) if added else existing
+            if is_new(p, there, study):
+                added.append(p)
     return np.array(added[: missing(study, existing)]).reshape(
         -1, len(study.names)
     )
@@ -157,7 +181,9 @@ class HyperCube:
         return low + self.within[rows] * (high - low)
 
     def _feasible(self, points):
-        return self.study.feasible(self.study.lows + points * self.span)
+        return self.study.feasible(
+            self.study.spread(self.study.lows + points * self.span)
+        )
 
     def _distances(self, rows):
         """phi_p's terms of these points with all others: d^-p."""
@@ -221,7 +247,28 @@ def latin_hypercube(study, existing):
     for _ in range(min(EXCHANGES, 100 * cube.points.size)):
         cube.exchange()
     cube.replace_infeasible(probes)
-    return study.lows + cube.points * cube.span
+    points = study.lows + cube.points * cube.span
+    return without_twins(study, existing, points, probes)
+
+
+def without_twins(study, existing, points, probes):
+    """Points with the values that parameters may have; of those that are one
+    another's equal then all but one become the probes farthest from all."""
+    if not study.discrete:
+        return points
+    span = study.highs - study.lows
+    kept, twins = [], 0
+    for point in study.spread(points):
+        if is_new(point, np.vstack([existing, *kept]), study):
+            kept.append(point)
+        else:
+            twins += 1
+    probes = np.unique(probes, axis=0)
+    for _ in range(twins):
+        others = np.vstack([existing, *kept]) / span
+        d = np.linalg.norm(probes[:, None] / span - others[None], axis=2)
+        kept.append(probes[d.min(axis=1).argmax()])
+    return np.array(kept)
 
 
 def table(study, existing):
@@ -243,6 +290,16 @@ def table(study, existing):
             f"sampling/file: {path} must be a table (.csv) with a column of"
             f" numbers for each of {' '.join(study.names)}; wrong is {error}"
         ) from None
+    off = np.abs(study.nearest(points) - points) > 1e-9 * (
+        study.highs - study.lows
+    )
+    if off.any():
+        row, column = np.argwhere(off)[0]
+        raise StudyError(
+            f"sampling/file: row {row + 1} of {path} has {study.names[column]}"
+            f" {points[row, column]:g}, which is none of its values. Correct"
+            " it, or the parameter"
+        )
     bad = np.flatnonzero(~study.feasible(points))
     if len(bad):
         row = dict(zip(study.names, points[bad[0]]))

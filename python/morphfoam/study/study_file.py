@@ -14,7 +14,7 @@ from .infill_section import read_infill
 from .errors import StudyError
 from .expressions import Condition, Expression, RESERVED
 from .response_section import read_response
-from .section import Section, interval, load
+from .section import Section, interval, load, number
 
 # How many designs, or which: the key that each method of sampling takes
 METHODS = {
@@ -26,6 +26,8 @@ METHODS = {
 # NAME.dryRun is the strategy NAME without the solver
 DRY_RUN = ".dryRun"
 STARTS = ("baseline", "nearest", "template")
+# Of a parameter that has certain values only
+MOST_VALUES = 10000
 # The study's own folders and columns
 TAKEN = {"baseline", "outcomes", "workflow", "template"}
 
@@ -45,6 +47,27 @@ class Parameter:
     high: float
     baseline: float
     target: Target | None
+    values: np.ndarray | None = None  # ascending; None: any between bounds
+
+    def nearest(self, x):
+        """The value it may have that is nearest."""
+        if self.values is None:
+            return x
+        i = np.abs(np.asarray(x)[..., None] - self.values).argmin(axis=-1)
+        return self.values[i]
+
+    def of_share(self, x):
+        """Values of numbers between the bounds, so that evenly spread numbers
+        give each value alike often."""
+        if self.values is None:
+            return x
+        n = len(self.values)
+        share = (np.asarray(x) - self.low) / (self.high - self.low)
+        return self.values[np.clip((share * n).astype(int), 0, n - 1)]
+
+    @property
+    def whole(self):
+        return self.values is not None and (self.values % 1 == 0).all()
 
 
 @dataclass
@@ -94,6 +117,35 @@ def read_target(section):
     if (file is None) != (entry is None):
         raise StudyError(f"{section.where} needs file and entry together")
     return Target(file, entry) if file else None
+
+
+def read_range(item):
+    """Bounds, and the values between them if not all are allowed."""
+    if "values" in item:
+        for refused in ("bounds", "step"):
+            if refused in item:
+                raise StudyError(
+                    f"{item.where} has values and {refused}: use one of them"
+                )
+        values = np.unique(
+            [number(v, item.at("values")) for v in item.items("values")]
+        )
+        if len(values) < 2:
+            raise StudyError(
+                f"{item.at('values')} must be two numbers or more"
+            )
+        return values[0], values[-1], values
+    low, high = interval(item.get("bounds"), item.at("bounds"))
+    if "step" not in item:
+        return low, high, None
+    step = item.number("step", low=0)
+    n = (high - low) / step if step > 0 else 0
+    if not 1 <= n <= MOST_VALUES or abs(n - round(n)) > 1e-9 * n:
+        raise StudyError(
+            f"{item.at('step')} is {step:g}; it must divide the bounds into"
+            f" equal parts, {MOST_VALUES} at most"
+        )
+    return low, high, low + step * np.arange(round(n) + 1)
 
 
 def read_steps(section, timeout):
@@ -180,6 +232,33 @@ class StudyFile:
     @property
     def highs(self):
         return np.array([p.high for p in self.parameters])
+
+    @property
+    def discrete(self):
+        """The names of those that have certain values only."""
+        return [p.name for p in self.parameters if p.values is not None]
+
+    def nearest(self, points):
+        """Rows of points with the nearest values that they may have."""
+        columns = np.asarray(points, float).reshape(-1, len(self.names)).T
+        return np.stack(
+            [p.nearest(x) for p, x in zip(self.parameters, columns)], axis=1
+        )
+
+    def spread(self, points):
+        """Rows of evenly spread points with values that they may have."""
+        columns = np.asarray(points, float).reshape(-1, len(self.names)).T
+        return np.stack(
+            [p.of_share(x) for p, x in zip(self.parameters, columns)], axis=1
+        )
+
+    def as_written(self, values):
+        """As a case's dictionaries have them: whole numbers without a point."""
+        whole = {p.name for p in self.parameters if p.whole}
+        return {
+            name: int(value) if name in whole else float(value)
+            for name, value in values.items()
+        }
 
     def values(self, parameters):
         """Parameters and derived quantities, by name; arrays as well."""
@@ -274,14 +353,18 @@ class StudyFile:
             item = Section(
                 content,
                 f"parameters/{name}",
-                ("bounds", "baseline", "file", "entry"),
+                ("bounds", "values", "step", "baseline", "file", "entry"),
             )
             self._new_name(name, item.where)
-            low, high = interval(item.get("bounds"), item.at("bounds"))
-            self.parameters.append(
-                Parameter(
-                    name, low, high, item.number("baseline"), read_target(item)
+            low, high, values = read_range(item)
+            baseline = item.number("baseline")
+            if values is not None and baseline not in values:
+                raise StudyError(
+                    f"{item.at('baseline')} is {baseline:g}, which is none of"
+                    " the values " + " ".join(f"{v:g}" for v in values)
                 )
+            self.parameters.append(
+                Parameter(name, low, high, baseline, read_target(item), values)
             )
         self.baseline = {p.name: p.baseline for p in self.parameters}
 
