@@ -76,6 +76,8 @@ PICTURES = [
         ["contactSheet"],
         1000,
     ),
+    ("ribChannel.mesh", "ribChannel", ["mesh.lowest", "mesh.highest"], 800),
+    ("ribChannel.T", "ribChannel", ["T.lowestCf", "T.highestNu"], 900),
     ("rudder.lattice", "rudder", ["rudder.before", "rudder.after"], 900),
     (
         "slidingCylinder.mesh",

@@ -389,7 +389,7 @@ def convergence(residuals, histories, path):
         late = [value for _, value in values[len(values) // 10 :]]
         margin = 0.05 * (max(late) - min(late)) or 1e-12 + abs(late[0]) * 1e-3
         axis.set(
-            xlabel="value",
+            xlabel="n-th value written",
             ylabel=name,
             ylim=(min(late) - margin, max(late) + margin),
         )
