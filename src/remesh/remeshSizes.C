@@ -19,7 +19,8 @@ namespace Foam
 static const char* const sizeName = "remeshSize";
 
 
-//- points0 of the mesh, or its points
+//- points0 of the mesh, without the points in constant if the mesh is of
+//  there, or else its points: where motion solvers find their reference
 static pointField referenceOf(const fvMesh& mesh)
 {
     const fileName instance
@@ -42,7 +43,16 @@ static pointField referenceOf(const fvMesh& mesh)
     );
     if (!returnReduce(io.typeHeaderOk<pointIOField>(true), andOp<bool>()))
     {
-        return mesh.points();
+        io.rename("points");
+        io.instance() = mesh.time().constant();
+        if
+        (
+            mesh.facesInstance() != io.instance()
+         || mesh.pointsInstance() == io.instance()
+        )
+        {
+            return mesh.points();
+        }
     }
     const pointIOField points0(io);
     dictionaryChecks::stopIf
@@ -52,9 +62,9 @@ static pointField referenceOf(const fvMesh& mesh)
       ? string()
       : string
         (
-            "points0 is of another mesh: it has " + Foam::name(points0.size())
-          + " points, the mesh " + Foam::name(mesh.nPoints())
-          + "\n    Remove it"
+            points0.name() + " is of another mesh: it has "
+          + Foam::name(points0.size()) + " points, the mesh "
+          + Foam::name(mesh.nPoints()) + "\n    Remove it"
         )
     );
     return points0;

@@ -131,27 +131,32 @@ Foam::autoPtr<Foam::remesher::attempt> Foam::remesher::make
             << exit(FatalIOError);
     }
 
-    // Optimised points are taken where they are better
+    // The best of several stages of optimised points is taken
     DynamicList<vector> normals;
     for (label i = 0; i < planes_().size(); ++i)
     {
         normals.append(planes_().normal(i));
     }
-    const pointField points(a.tetrahedra.points);
     a.quality = a.faces().quality();
-    a.tetrahedra.points = tetrahedraSmoother::smoothed
+    pointField best(a.tetrahedra.points);
+    tetrahedraSmoother::smooth
     (
-        given, a.tetrahedra, normals, smoothing
+        given,
+        a.tetrahedra,
+        normals,
+        smoothing,
+        [&](const pointField& points)
+        {
+            a.tetrahedra.points = points;
+            const cavityFaces::figures quality(a.faces().quality());
+            if (worst(quality) < worst(a.quality))
+            {
+                a.quality = quality;
+                best = points;
+            }
+        }
     );
-    const cavityFaces::figures after(a.faces().quality());
-    if (worst(after) < worst(a.quality))
-    {
-        a.quality = after;
-    }
-    else
-    {
-        a.tetrahedra.points = points;
-    }
+    a.tetrahedra.points = best;
 
     using plainText::rounded;
     Info<< "remesh: " << cells.size() << " cells, cut into "

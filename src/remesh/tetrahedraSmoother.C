@@ -125,12 +125,13 @@ public:
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
-Foam::pointField Foam::tetrahedraSmoother::smoothed
+void Foam::tetrahedraSmoother::smooth
 (
     const tetrahedralMesh& given,
     const tetrahedralMesh& made,
     const UList<vector>& normals,
-    const label iterations
+    const label iterations,
+    const std::function<void(const pointField&)>& look
 )
 {
     const label n = made.points.size();
@@ -157,28 +158,26 @@ Foam::pointField Foam::tetrahedraSmoother::smoothed
     morph::SerialCommunicator communicator;
     morph::DistortionMinimiser minimiser(mesh, motion, communicator);
     const untrapped numbers;
-    const int stages[] = {1, 2, 4, 8};
-    for (const int power : stages)
+    pointField points(made.points);
+    for (const int power : {1, 2, 4, 8, 16})
     {
         morph::DistortionMinimiser::Stage stage;
         stage.power = power;
         stage.sizeWeight = 0.5;
-        stage.iterations = max(label(1), iterations/4);
+        stage.iterations = max(label(1), iterations/5);
         minimiser.run
         (
             stage, x, [](const morph::DistortionMinimiser::Progress&) {}
         );
-    }
-
-    pointField points(made.points);
-    forAll(points, i)
-    {
-        if (!motion.fixed(i))
+        forAll(points, i)
         {
-            points[i] = point(x(i, 0), x(i, 1), x(i, 2));
+            if (!motion.fixed(i))
+            {
+                points[i] = point(x(i, 0), x(i, 1), x(i, 2));
+            }
         }
+        look(points);
     }
-    return points;
 }
 
 
