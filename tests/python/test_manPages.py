@@ -17,7 +17,7 @@ def page(name):
     return (ROOT / f"debian/man/{name}.1").read_text()
 
 
-@pytest.mark.parametrize("name", ["morphMesh", "morphSurface"])
+@pytest.mark.parametrize("name", ["morphMesh", "morphSurface", "morphRemesh"])
 def test_every_option_of_a_command_has_a_paragraph(name):
     source = (ROOT / f"applications/{name}/{name}.C").read_text()
     options = re.findall(r'argList::add(?:Bool)?Option\s*\(\s*"(\w+)"', source)
@@ -26,7 +26,9 @@ def test_every_option_of_a_command_has_a_paragraph(name):
     assert set(options) <= set(described)
 
 
-@pytest.mark.parametrize("name", ["morphMesh", "morphSurface", "morphStudy"])
+@pytest.mark.parametrize(
+    "name", ["morphMesh", "morphSurface", "morphRemesh", "morphStudy"]
+)
 def test_pages_have_the_version(name):
     version = (ROOT / "VERSION").read_text().strip()
     assert f'"morphFoam {version}"' in page(name)
