@@ -34,6 +34,9 @@ from .study_file import DRY_RUN
 # Where the package is, for the workers
 HOME = Path(__file__).resolve().parents[2]
 
+# Of clusters, by name
+PROFILES = Path(__file__).resolve().with_name("profiles")
+
 
 @contextlib.contextmanager
 def only_one(study):
@@ -317,6 +320,8 @@ def complete(study, strategy, chosen, cores, profile, note=True):
     """Run what is missing of these designs, and the baseline."""
     keep_up(study, strategy, [d.number for d in chosen], note)
     workflow = study.folder / "workflow"
+    profile = profile_folder(profile)
+    cancel_jobs(workflow, profile)
     shutil.rmtree(workflow, ignore_errors=True)
     workflow.mkdir()
     snapshot = workflow / "study.yaml"
@@ -333,6 +338,36 @@ def complete(study, strategy, chosen, cores, profile, note=True):
             None if profile else max(1, cores // study.cores),
         )
         engine(study, workflow, cores, profile, progress)
+
+
+def profile_folder(profile):
+    """The folder of a profile of ours, by its name, or of the user's own."""
+    if not profile or os.sep in profile or Path(profile).exists():
+        return profile
+    ours = PROFILES / profile
+    if not ours.exists():
+        raise StudyError(
+            f"there is no profile {profile}. There are"
+            f" {' '.join(sorted(p.name for p in PROFILES.iterdir()))}; or give"
+            " the folder of a profile of Snakemake, with a / in it"
+        )
+    return str(ours)
+
+
+def cancel_jobs(workflow, profile):
+    """Jobs of a sweep that was killed would make the same designs again, in the
+    same folders."""
+    left = [
+        job.stem
+        for job in workflow.glob("*/*.job")
+        if not job.with_suffix(".exit").exists()
+    ]
+    if not left:
+        return
+    cancel = Path(profile or PROFILES / "slurm") / "cancel.py"
+    if cancel.exists():
+        subprocess.run([cancel, *left])
+        print(f"{len(left)} jobs of a former run are cancelled", flush=True)
 
 
 def engine(study, workflow, cores, profile, progress):
