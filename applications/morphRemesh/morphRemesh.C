@@ -50,6 +50,7 @@ Usage
 #include "allFields.H"
 #include "argList.H"
 #include "clockTime.H"
+#include "conservativeMapping.H"
 #include "dictionaryChecks.H"
 #include "fvMesh.H"
 #include "IOdictionary.H"
@@ -258,7 +259,9 @@ static bool remesh(const argList& args)
     }
     const scalar makeTime = clock.timeIncrement();
 
+    conservativeMapping mapping(mesh, remeshing.map());
     const autoPtr<mapPolyMesh> changed(remeshing.change());
+    mapping.map();
     const scalar changeTime = clock.timeIncrement();
     const meshQuality after(mesh, mesh.points());
     const scalar newVolume = gSum(mesh.V());

@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "pointDisplacementField.H"
 #include "finiteNumbers.H"
+#include "motionOrigin.H"
 #include "processorPolyPatch.H"
 #include "fixedValuePointPatchFields.H"
 #include "pointFields.H"
@@ -121,6 +122,26 @@ Foam::controlPointGroup::controlPointGroup
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::pointField Foam::controlPointGroup::origins
+(
+    const prescribedDisplacement::points& p
+) const
+{
+    pointField from(p.positions);
+    if (const pointVectorField* origin = motionOrigin::of(mesh_))
+    {
+        forAll(from, i)
+        {
+            if (p.meshPoints[i] >= 0)
+            {
+                from[i] = (*origin)[p.meshPoints[i]];
+            }
+        }
+    }
+    return from;
+}
+
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -276,7 +297,12 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::displacement
         return tmp<vectorField>::New(p.positions.size(), Zero);
     }
 
-    tmp<vectorField> td(displacement_->displacement(p));
+    const pointField from(origins(p));
+    tmp<vectorField> td
+    (
+        displacement_->displacement({from, p.meshPoints, p.listed})
+      + (from - p.positions)
+    );
     const vectorField& d = td();
     OStringStream message;
     for (label i = 0; i < d.size() && message.str().empty(); ++i)
@@ -313,7 +339,10 @@ Foam::tmp<Foam::vectorField> Foam::controlPointGroup::derivative
 {
     return
         displacement_.valid()
-      ? displacement_->derivative(p, parameteri)
+      ? displacement_->derivative
+        (
+            {origins(p), p.meshPoints, p.listed}, parameteri
+        )
       : tmp<vectorField>::New(p.positions.size(), Zero);
 }
 

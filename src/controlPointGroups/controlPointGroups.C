@@ -8,6 +8,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "calculatedPointPatchField.H"
 #include "cellDisplacementField.H"
 #include "constraintPatches.H"
+#include "motionOrigin.H"
 #include "motionZone.H"
 #include "otherSolvers.H"
 #include "pointDisplacementField.H"
@@ -49,6 +50,7 @@ Foam::controlPointGroups::controlPointGroups
     rigid_(rigid),
     constraints_(constraintPatches::slidingSurfaces(mesh))
 {
+    motionOrigin::read(mesh);
     freeze(coeffs);
     const dictionary* groups = coeffs.findDict("controlPoints");
     if (groups)
