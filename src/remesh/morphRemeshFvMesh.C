@@ -184,7 +184,7 @@ Foam::word Foam::morphRemeshFvMesh::writeLastValid()
 }
 
 
-void Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
+bool Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
 {
     const scalar start = time().elapsedCpuTime();
     Info<< "Re-meshing, as the mesh would be " << predicted << endl;
@@ -213,6 +213,29 @@ void Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
             << written << ". Make keepLayers less, or the time step smaller"
             << nl << exit(FatalIOError);
     }
+    state_.set("lastStep", time().timeIndex());
+    const auto worst = [&](const scalar nonOrthogonality, const scalar skewness)
+    {
+        return max
+        (
+            nonOrthogonality/settings_.nonOrthogonality,
+            skewness/settings_.skewness
+        );
+    };
+    const cavityFaces::figures& made = change.found();
+    const scalar ofNew = worst(made.nonOrthogonality, made.skewness);
+    if
+    (
+        predicted.valid()
+     && ofNew > 1
+     && ofNew >= worst(predicted.nonOrthogonality(), predicted.skewness())
+    )
+    {
+        Info<< "    New cells would be no better: the old ones stay" << endl;
+        cpuTime_ += time().elapsedCpuTime() - start;
+        return false;
+    }
+
     conservativeMapping mapping(*this, change.map());
     const autoPtr<mapPolyMesh> changed(change.change());
     mapping.map();
@@ -223,12 +246,12 @@ void Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
     motion().points0() = points();
 
     state_.set("remeshings", nRemeshes() + 1);
-    state_.set("lastStep", time().timeIndex());
     const scalar seconds = time().elapsedCpuTime() - start;
     cpuTime_ += seconds;
     Info<< "    Re-meshing " << nRemeshes() << ": " << nBefore << " cells, then "
         << nCells() << "; volumes agree to " << mapping.mismatch() << "; "
         << seconds << " s" << endl;
+    return true;
 }
 
 
@@ -249,8 +272,10 @@ bool Foam::morphRemeshFvMesh::update()
         state_.getOrDefault<label>("lastStep", -1) == updated_ - 1;
     if (first && (again ? !predicted.valid() : !predicted.good()))
     {
-        remesh(predicted);
-        changed = true;
+        changed = remesh(predicted);
+    }
+    if (changed)
+    {
         next = motionPtr_->newPoints();
         predicted = predictedMesh(*this, next, settings_);
         if (predicted.valid() && !predicted.good())
