@@ -106,7 +106,9 @@ def test_linear_fields_are_exact(plane):
 def test_linear_fields_are_almost_exact_in_cells_with_warped_faces(warped):
     """Where OpenFOAM's centre of a cell is not its centroid."""
     _, _, after, _, centres = warped
-    assert np.abs(after["linear"][:, 0] - FIELDS["linear"](centres)).max() < 1e-3
+    assert (
+        np.abs(after["linear"][:, 0] - FIELDS["linear"](centres)).max() < 1e-3
+    )
 
 
 def test_smooth_fields_are_close(plane):

@@ -13,7 +13,13 @@ import shutil
 import numpy as np
 import pytest
 
-from boxCase import block_mesh, fixed, from_block_mesh, point_field, write_control
+from boxCase import (
+    block_mesh,
+    fixed,
+    from_block_mesh,
+    point_field,
+    write_control,
+)
 from cellFields import read_internal
 from rbfCase import CUBE
 
@@ -171,7 +177,9 @@ def test_restart_goes_on(uniform, tmp_path):
         t for t in times(case) if (case.path / t / "polyMesh/faces").exists()
     ]
     assert with_mesh and with_mesh[0] != times(case)[-1]
-    assert "motionOrigin" in [f.name for f in (case.path / with_mesh[0]).iterdir()]
+    assert "motionOrigin" in [
+        f.name for f in (case.path / with_mesh[0]).iterdir()
+    ]
     other = flow(tmp_path, end=0)
     shutil.copytree(case.path / with_mesh[0], tmp_path / with_mesh[0])
     write_control(

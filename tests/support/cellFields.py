@@ -30,8 +30,9 @@ def read_internal(case, file):
 def measure(case, time):
     """Centres and volumes of the cells, as OpenFOAM has them."""
     case.run(
-        *f"postProcess -time {time} -funcs (writeCellCentres writeCellVolumes)"
-        .split(" ", 4)
+        *f"postProcess -time {time} -funcs (writeCellCentres writeCellVolumes)".split(
+            " ", 4
+        )
     )
     return (
         read_internal(case, f"{time}/C"),
