@@ -30,9 +30,10 @@ DESKTOP = dict(width=1280, height=900, deviceScaleFactor=1, mobile=False)
 # What a page says of itself when it has loaded
 INSPECT = r"""
 (() => {
-// Is an element, or what it is in, one that scrolls by itself or is for readers
-// aloud?
+// Is an element, or what it is in, one that scrolls by itself, is for readers
+// aloud, or is cut off, as roots are?
 const scrolls = e => e && (e.className == "katex-mathml"
+  || e.className == "hide-tail"
   || /auto|scroll/.test(getComputedStyle(e).overflowX)
   && e.tagName != "BODY" && e.tagName != "HTML" || scrolls(e.parentElement));
 return ({
