@@ -45,6 +45,7 @@ PICTURES = [
     ("bulb.mesh", "bulb", ["mesh.before", "mesh.after"], 900),
     ("bulb.pressure", "bulb", ["pressure.before", "pressure.after"], 900),
     ("bulb.descent", "bulb", ["history", "importance"], 1000),
+    ("carBody.body", "carBody", ["body.before", "body.after"], 900),
     ("ffd2D.boxes", "ffd2D", ["inside", "boundary", "rotated"], 900),
     (
         "ffdEllipsoid.lattice",
@@ -84,6 +85,12 @@ PICTURES = [
         "slidingCylinder",
         ["laplacianUniform.sliding", "rbfSubSteps.sliding"],
         800,
+    ),
+    (
+        "turningAerofoil.mesh",
+        "turningAerofoil",
+        ["fixed", "movingOptimised"],
+        900,
     ),
     ("twistingColumn.film", "twistingColumn", ["twist"], 800),
     (
