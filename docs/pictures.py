@@ -41,6 +41,7 @@ PICTURES = [
         ["middle.before", "middle.images.auto"],
         900,
     ),
+    ("bladeTip.motion", "bladeTip", ["motion"], 1150),
     ("bulb.lattice", "bulb", ["bulb.before"], 700),
     ("bulb.mesh", "bulb", ["mesh.before", "mesh.after"], 900),
     ("bulb.pressure", "bulb", ["pressure.before", "pressure.after"], 900),

@@ -40,8 +40,12 @@ Usage
         folder \c controls beside quality.dat. Also with -dryRun.
 
       - \par -pictures
-        Like -lattice; for ffdMotionSolver also one picture of every parameter
-        at its bounds, preview.png in that folder.
+        Like -lattice, and one sheet of the motion, motion.png in that folder:
+        control points by kind, what they are told, those that are selected, the
+        mesh before and after where it changed most and where it is worst, the
+        worst cells and the histograms of quality (morphMeshPictures.H). For
+        ffdMotionSolver also one picture of every parameter at its bounds,
+        preview.png.
 
       - \par -derivatives \<patches\>
         Of a motion that has parameters, those of lattices or the numbers of
@@ -116,6 +120,7 @@ Usage
 #include "morphMeshInput.H"
 #include "morphMeshOptimise.H"
 #include "morphMeshOutput.H"
+#include "morphMeshPictures.H"
 #include "morphVersion.H"
 #include "motionLimiter.H"
 #include "motionRecord.H"
@@ -208,7 +213,7 @@ static void addOptions()
     argList::addBoolOption
     (
         "pictures",
-        "Like -lattice, and draw each parameter at its bounds in one picture"
+        "Like -lattice, and draw them: the motion, and parameters at bounds"
     );
     argList::addOption
     (
@@ -314,6 +319,16 @@ static bool morph(const argList& args)
     const meshQuality before(mesh, mesh.points());
     const meshQuality after(mesh, newPoints);
     const scalar checkTime = clock.timeIncrement();
+    if (args.found("pictures"))
+    {
+        const fileName folder
+        (
+            runTime.globalPath()/morphMeshOutput::folder(mesh)/"controls"
+        );
+        morphMeshPictures::write(mesh, newPoints, before, after, folder);
+        morphMeshPictures::draw(folder);
+    }
+    const scalar drawTime = clock.timeIncrement();
 
     Info<< nl;
     meshQuality::writeHeader(Info);
@@ -349,7 +364,7 @@ static bool morph(const argList& args)
         << ", solver construction " << rounded(constructTime).c_str()
         << ", solve " << rounded(solveTime).c_str()
         << ", check " << rounded(checkTime).c_str()
-        << ", write " << rounded(showTime + clock.timeIncrement()).c_str()
+        << ", write " << rounded(showTime + drawTime + clock.timeIncrement()).c_str()
         << nl << nl << (after.valid() ? "End" : motionLimiter::failed) << nl
         << endl;
 

@@ -208,7 +208,19 @@ void Foam::morphMeshControls::write
             continue;
         }
         some = true;
-        controlGeometry::write(control->shapes(), folder);
+        List<controlShape> shapes(control->shapes());
+        if (solvers.size() > 1)
+        {
+            for (controlShape& shape : shapes)
+            {
+                shape.name = solver.name() + '_' + shape.name;
+            }
+        }
+        controlGeometry::write(shapes, folder);
+        controlGeometry::writeSeries
+        (
+            shapes, folder.path().path(), folder.name()
+        );
 
         autoPtr<ffdBoxes> boxes(boxesOf(mesh, solver));
         if (boxes.valid())

@@ -5,11 +5,14 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "controlGeometry.H"
 #include "foamCompat.H"
+#include "instantList.H"
 #include "ListListOps.H"
 #include "motionSolver.H"
+#include "OSspecific.H"
 #include "Pstream.H"
 #include "wholeFile.H"
 
+#include <algorithm>
 #include <limits>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -150,6 +153,29 @@ static void writeShape(Ostream& os, const controlShape& shape)
     }
 }
 
+
+//- Folders whose names are numbers, in their order. Without OpenFOAM's file
+//  handlers, which may ask all ranks
+static instantList timesIn(const fileName& folder)
+{
+    DynamicList<instant> times;
+    for (const fileName& name : readDir(folder, fileName::DIRECTORY))
+    {
+        scalar value;
+        if (readScalar(name, value))
+        {
+            times.append(instant(value, name));
+        }
+    }
+    std::sort
+    (
+        times.begin(),
+        times.end(),
+        [](const instant& a, const instant& b) { return a.value() < b.value(); }
+    );
+    return instantList(times);
+}
+
 } // End namespace Foam
 
 
@@ -204,6 +230,51 @@ void Foam::controlGeometry::write
                 }
             );
         }
+    }
+}
+
+
+void Foam::controlGeometry::writeSeries
+(
+    const List<controlShape>& shapes,
+    const fileName& folder,
+    const fileName& within
+)
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+    const instantList times(timesIn(folder));
+    for (const controlShape& shape : shapes)
+    {
+        const fileName name(shape.name + ".vtk");
+        wholeFile::writeOrStop
+        (
+            folder/(name + ".series"),
+            [&](Ostream& os)
+            {
+                os.precision(std::numeric_limits<scalar>::max_digits10);
+                os  << "{" << nl
+                    << "  \"file-series-version\" : \"1.0\"," << nl
+                    << "  \"files\" : [";
+                bool first = true;
+                for (const instant& time : times)
+                {
+                    fileName file(time.name());
+                    file = (within.empty() ? file : file/within)/name;
+                    if (!isFile(folder/file, false))
+                    {
+                        continue;
+                    }
+                    os  << (first ? "" : ",") << nl
+                        << "    { \"name\" : \"" << file.c_str()
+                        << "\", \"time\" : " << time.value() << " }";
+                    first = false;
+                }
+                os  << nl << "  ]" << nl << "}" << nl;
+            }
+        );
     }
 }
 

@@ -61,7 +61,9 @@ bool Foam::functionObjects::motionControls::write()
     {
         folder = folder/mesh_.name();
     }
-    controlGeometry::write(shapes, folder/name()/time_.timeName());
+    folder = folder/name();
+    controlGeometry::write(shapes, folder/time_.timeName());
+    controlGeometry::writeSeries(shapes, folder);
     return true;
 }
 

@@ -191,6 +191,33 @@ bool Foam::ffdBox::frozen(const labelVector& point, const label face) const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::vector Foam::ffdBox::across
+(
+    const ffdBox& other,
+    const point& x
+) const
+{
+    const Vector3 at = toEigen(x);
+    const Vector3 xi = settings_.frame->coordinates(at);
+    const auto theirs =
+        other.inwards(other.settings_.frame->coordinates(at));
+    for (const Vector3& normal : inwards(xi))
+    {
+        for (const Vector3& opposite : theirs)
+        {
+            if (normal.dot(opposite) < -1 + near)
+            {
+                const scalar slope =
+                    (settings_.frame->gradient(at)*normal)
+                   .cwiseAbs().maxCoeff();
+                return toFoam(Vector3(normal/slope));
+            }
+        }
+    }
+    return Zero;
+}
+
+
 bool Foam::ffdBox::touches(const ffdDeformation& other) const
 {
     const ffdBox* box = dynamic_cast<const ffdBox*>(&other);

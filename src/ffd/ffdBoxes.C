@@ -403,6 +403,7 @@ Foam::tmp<Foam::vectorField> Foam::ffdBoxes::displacement()
             }
         }
         checkShared(stage, displacements);
+        checkSmooth(stage);
     }
     prepared_ = true;
     if (nStages_ == 1)

@@ -6,6 +6,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "ffdBoxes.H"
 #include "boundBox.H"
 #include "dictionaryChecks.H"
+#include "eigenFields.H"
 #include "foamCompat.H"
 #include "plainText.H"
 
@@ -232,6 +233,141 @@ void Foam::ffdBoxes::checkShared
                     << "    of the common face alike, or none of them";
                 message = text.str();
                 break;
+            }
+        }
+    }
+    if (some)
+    {
+        dictionaryChecks::stopIf(dict_.subDict("boxes"), message);
+    }
+}
+
+
+Foam::string Foam::ffdBoxes::kink
+(
+    const label boxi,
+    const label other,
+    const label order
+) const
+{
+    const ffdBox& box = lattice(boxi);
+    const ffdBox& neighbour = lattice(other);
+    const pointField& points = before(stage_[boxi]);
+    const labelHashSet theirs(neighbour.inside());
+
+    // Differences of third order on each side. Polynomials, and those of
+    // neighbours differ by much more than their error where they differ
+    const scalar step = 1e-3;
+    DynamicList<point> shared;
+    DynamicList<vector> mine, its;
+    for (const label pointi : box.inside())
+    {
+        if (theirs.found(pointi))
+        {
+            const point& x = points[pointi];
+            const vector a(step*box.across(neighbour, x));
+            const vector b(step*neighbour.across(box, x));
+            morph::Vector3 xi;
+            if
+            (
+                mag(a) > 0
+             && mag(b) > 0
+             && box.within(toEigen(point(x + 3*a)), xi)
+             && neighbour.within(toEigen(point(x + 3*b)), xi)
+            )
+            {
+                shared.append(x);
+                mine.append(a);
+                its.append(b);
+            }
+        }
+    }
+
+    const auto slopes =
+        [&](const ffdBox& of, const UList<vector>& steps, const scalar sign)
+        {
+            FixedList<vectorField, 4> d;
+            forAll(d, k)
+            {
+                d[k] = of.displacementOf
+                (
+                    pointField(shared) + scalar(k)*vectorField(steps)
+                );
+            }
+            const scalarField h(mag(vectorField(steps)));
+            return
+                order == 1
+              ? vectorField
+                (
+                    sign*(18.0*d[1] - 11.0*d[0] - 9.0*d[2] + 2.0*d[3])/(6*h)
+                )
+              : vectorField
+                (
+                    (2.0*d[0] - 5.0*d[1] + 4.0*d[2] - d[3])/sqr(h)
+                );
+        };
+    const vectorField here(slopes(box, mine, 1));
+    const vectorField there(slopes(neighbour, its, -1));
+
+    // Round-off and the error of differences, the same on all ranks
+    const scalar largest = Foam::sqrt
+    (
+        max
+        (
+            box.control().rowwise().squaredNorm().maxCoeff(),
+            neighbour.control().rowwise().squaredNorm().maxCoeff()
+        )
+    );
+    const scalar relative = order == 1 ? 1e-4 : 1e-2;
+    forAll(shared, i)
+    {
+        const scalar length = mag(mine[i])/step;
+        if
+        (
+            mag(here[i] - there[i])
+          > relative*max(mag(here[i]), mag(there[i]))
+          + 1e-2*relative*largest/pow(length, order)
+        )
+        {
+            OStringStream text;
+            text<< "Boxes '" << neighbour.name() << "' and '" << box.name()
+                << "' join with a kink at " << shared[i]
+                << ", but 'continuity C" << order << "' is asked for" << nl
+                << "    Across their common face the "
+                << (order == 1 ? "first" : "second")
+                << " derivative of the displacement is " << there[i]
+                << " and " << here[i] << nl
+                << "    Let parameters of both move the control points next to"
+                << " the face so that their differences, over the distances"
+                << " between them, go on from one box to the other, or set"
+                << " 'continuity C" << order - 1 << "'";
+            return text.str();
+        }
+    }
+    return string();
+}
+
+
+void Foam::ffdBoxes::checkSmooth(const label stage) const
+{
+    string message;
+    bool some = false;
+    forAll(boxes_, boxi)
+    {
+        if (stage_[boxi] != stage)
+        {
+            continue;
+        }
+        for (const label other : neighbours_[boxi])
+        {
+            const label smooth = max
+            (
+                boxes_[boxi].frozenLayers(), boxes_[other].frozenLayers()
+            ) - 1;
+            some = some || smooth > 0;
+            for (label order = 1; order <= smooth && message.empty(); ++order)
+            {
+                message = kink(boxi, other, order);
             }
         }
     }

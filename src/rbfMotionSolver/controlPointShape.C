@@ -15,6 +15,8 @@ Foam::controlShape Foam::controlPointShape()
     shape.scalars.insert("conditions", scalarField());
     shape.scalars.insert("selected", scalarField());
     shape.scalars.insert("error", scalarField());
+    shape.scalars.insert("offMesh", scalarField());
+    shape.scalars.insert("region", scalarField());
     shape.vectors.insert("displacement", vectorField());
     shape.vectors.insert("weight", vectorField());
     return shape;
@@ -32,6 +34,8 @@ Foam::controlShape Foam::controlPointShape
     scalarField& conditions = shape.scalars["conditions"];
     scalarField& selected = shape.scalars["selected"];
     scalarField& error = shape.scalars["error"];
+    scalarField& offMesh = shape.scalars["offMesh"];
+    scalarField& region = shape.scalars["region"];
     vectorField& moved = shape.vectors["displacement"];
     vectorField& weight = shape.vectors["weight"];
     for (const rbfMotion::selection& made : selections)
@@ -61,6 +65,8 @@ Foam::controlShape Foam::controlPointShape
             );
             conditions.append(p.k);
             error.append(made.last->errors()[i]);
+            offMesh.append(pointi < 0);
+            region.append(made.region);
             weight.append(toFoam(gamma.row(i).transpose()));
             selected.append(0);
         }

@@ -8,6 +8,8 @@ Sources of truth: a cube whose height a lattice of eight points scales by 1 + mu
 volume 1 + mu, area 2 + 4 (1 + mu), centroid at half the height.
 """
 
+import json
+
 import numpy as np
 import pytest
 
@@ -306,3 +308,17 @@ def test_one_picture_of_every_parameter_at_its_bounds(tmp_path):
     sheet = tmp_path / "postProcessing/morphMesh/1/controls/preview.png"
     assert sheet.stat().st_size > 5000
     assert "1 parameters" in output or "1 parameter" in output
+
+
+def test_times_of_a_lattice_are_one_series(tmp_path):
+    """Each with its file, in the order of time."""
+    case = cube(tmp_path)
+    for time in ("2", "10", "0.5"):
+        case.run("morphMesh", "-time", time, "-lattice")
+    folder = tmp_path / "postProcessing/morphMesh"
+    for shape in ("cube", "cubeAtRest"):
+        series = json.loads((folder / f"{shape}.vtk.series").read_text())
+        assert series["file-series-version"] == "1.0"
+        assert [row["time"] for row in series["files"]] == [0.5, 2, 10]
+        for row in series["files"]:
+            assert (folder / row["name"]).is_file()

@@ -7,12 +7,16 @@ Source of truth: the displacement that was prescribed, and the definition of the
 interpolant, s(x) = sum_j phi(|x - x_j|/r0) gamma_j with Wendland's C2.
 """
 
+import json
 import re
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
 
 import rbfCase
+from ffdCase import ffd_box, ffd_case, parameter
 
 RADIUS = 1.5
 
@@ -34,9 +38,10 @@ def read_vtk(path):
     return points, data
 
 
-def controlled_case(path, functions, **ranks):
+def controlled_case(path, functions, **control):
     case = rbfCase.rbf_case(
         path,
+        control=control,
         coeffs=f"supportRadius {RADIUS};\n"
         + rbfCase.groups(
             top="type moving; patches (zMax);"
@@ -164,3 +169,94 @@ def test_weights_of_points_that_have_images(tmp_path):
     assert selected.any()
     weight = np.linalg.norm(data["weight"], axis=1)
     assert (weight[selected] > 0).any() and not weight[~selected].any()
+
+
+def times_of(series):
+    """(time, file) of a .vtk.series"""
+    return [
+        (row["time"], row["name"])
+        for row in json.loads(series.read_text())["files"]
+    ]
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_times_are_one_series_also_after_a_restart(tmp_path, ranks):
+    """Of the times that controlDict writes. A run that begins again at one of
+    them goes on with the list."""
+    case = controlled_case(
+        tmp_path, "writeControl writeTime;", end=1, deltaT=0.25
+    )
+    if ranks > 1:
+        case.decompose((2, 1, 1))
+    case.run("moveDynamicMesh", ranks=ranks)
+    series = tmp_path / "postProcessing/controls/controlPoints.vtk.series"
+    expected = [(t, f"{t:g}/controlPoints.vtk") for t in (0.25, 0.5, 0.75, 1)]
+    assert times_of(series) == expected
+    for _, name in expected:
+        assert (series.parent / name).is_file()
+    control = case.path / "system/controlDict"
+    text = control.read_text()
+    text = re.sub(r"startFrom\s+\w+;", "startFrom latestTime;", text)
+    text = re.sub(r"endTime\s+1;", "endTime 1.5;", text)
+    control.write_text(text)
+    case.run("moveDynamicMesh", ranks=ranks)
+    assert times_of(series)[:4] == expected
+    assert [time for time, _ in times_of(series)][4:] == [1.25, 1.5]
+
+
+READ = """
+import sys
+from paraview import simple as pv
+from paraview.servermanager import Fetch
+reader = pv.OpenDataFile(sys.argv[1])
+reader.UpdatePipelineInformation()
+print("times", *reader.TimestepValues)
+for time in reader.TimestepValues:
+    pv.UpdatePipeline(time=time, proxy=reader)
+    bounds = Fetch(reader).GetBounds()
+    print("top", repr(time), repr(bounds[5]))
+"""
+
+
+def test_paraview_reads_the_series_of_a_lattice(tmp_path):
+    """The top of the lattice rises by 0.3 m in a second: where the reader has it
+    at each time."""
+    if not shutil.which("pvbatch") or not shutil.which("xvfb-run"):
+        pytest.skip("needs ParaView and xvfb")
+    case = ffd_case(
+        tmp_path,
+        ffd_box(
+            "cube",
+            parameter(
+                "mu",
+                [((i, j, 1), (0, 0, 1)) for i in (0, 1) for j in (0, 1)],
+                "table ((0 0) (1 0.3))",
+            ),
+            order=(1, 1, 1),
+            origin=(0, 0, 0),
+            span=(1, 1, 1),
+            extra="continuity none;",
+        ),
+        control={"deltaT": 0.25},
+        cells=(2, 2, 2),
+    )
+    control = case.path / "system/controlDict"
+    control.write_text(
+        control.read_text() + "functions { controls { type motionControls;"
+        " libs (morphMotionSolvers); writeControl writeTime; } }\n"
+    )
+    case.run("moveDynamicMesh")
+    (tmp_path / "read.py").write_text(READ)
+    output = subprocess.run(
+        ["xvfb-run", "-a", "pvbatch", "read.py"]
+        + ["postProcessing/controls/cube.vtk.series"],
+        cwd=tmp_path,
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    ).stdout
+    assert re.search(r"^times 0.25 0.5 0.75 1.0$", output, re.MULTILINE)
+    rows = re.findall(r"^top (\S+) (\S+)$", output, re.MULTILINE)
+    assert len(rows) == 4
+    for time, top in rows:
+        assert float(top) == pytest.approx(1 + 0.3 * float(time), abs=1e-6)

@@ -6,7 +6,7 @@ form, on a surface file.
 
 Sources of truth: rotation matrices (Rodrigues) and linear functions by numpy;
 scipy's B-splines; central differences; the nested cubes of pyGeo's second block
-test, computed by its rules (control points and axes embedded in the parent).
+test, by its rules (control points and axes embedded in the parent).
 """
 
 import re
@@ -215,9 +215,20 @@ def by_hand(points):
     return np.array([x + both(x) + tiny(x) for x in points])
 
 
+# What pyGeo's own regression test holds (test_Blocks_02, Apache 2.0)
+PYGEO = [
+    [1.0, -0.3111595753452773, 1.0415440693208615],
+    [1.8492828670118886, 0.29721010616368027, 1.8397287751522697],
+    [1.9999999999999996, 0.49999999999999956, 2.2],
+    [2.0, 2.6584559306791387, 0.6888404246547224],
+]
+
+
 def test_children_go_with_their_parents(tmp_path):
+    """By the rules, and by the numbers of pyGeo's own test."""
     moved = morphed(tmp_path, CUBE4, [(0, 1, 2), (0, 2, 3)], nested())
     np.testing.assert_allclose(moved, by_hand(CUBE4), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(moved, PYGEO, rtol=0, atol=1e-12)
     assert np.abs(moved - CUBE4)[2].max() > 0.5
 
 
@@ -480,6 +491,16 @@ WRONG = {
         .replace("(1.75 0 3)", "(0 0 60)"),
         ["meets no section", "through"],
     ),
+    "axis of a lattice that meets no section": (
+        cube_box(
+            "b",
+            0,
+            3,
+            "axis { through ((0 0 50) (0 0 60)); variables { t {"
+            " type twist; value 1; } } }",
+        ),
+        ["meets no section", "from 0 to 1", "through"],
+    ),
     "axis of one point": (
         "w { type axis; through ((0 0 0)); variables { t { type twist;"
         " value 1; } } }",
@@ -516,6 +537,16 @@ WRONG = {
     ),
     "no file": (lattice_box("none.xyz"), ["none.xyz", "is not there"]),
     "holes": (lattice_box("holes.csv"), ["holes.csv", "holes", "(3 2 4)"]),
+    "a point that is no number": (
+        lattice_box("nan.csv"),
+        ["nan.csv", "line 3", "i j k x y z"],
+    ),
+    "a point that is no number in blocks": (
+        lattice_box("nan.xyz"),
+        ["nan.xyz", "numbers"],
+    ),
+    "blanking": (lattice_box("blank.xyz"), ["blank.xyz", "24 numbers more"]),
+    "twice": (lattice_box("twice.csv"), ["twice.csv", "twice", "Remove one"]),
     "short": (lattice_box("short.xyz"), ["short.xyz", "ends in block 0"]),
     "words": (lattice_box("words.xyz"), ["words.xyz", "numbers"]),
     "which block": (
@@ -559,6 +590,14 @@ def test_a_wrong_entry_is_an_error_that_helps(tmp_path, name):
     (tmp_path / "out.xyz").write_text(plot3d([control[::-1]]))
     lines = table(control).splitlines()
     (tmp_path / "holes.csv").write_text("\n".join(lines[:1] + lines[2:]))
+    (tmp_path / "twice.csv").write_text("\n".join(lines[:2] + lines[1:]))
+    words_of = lines[2].split(",")
+    (tmp_path / "nan.csv").write_text(
+        "\n".join(lines[:2] + [",".join(words_of[:-1] + ["nan"])] + lines[3:])
+    )
+    text = plot3d([control])
+    (tmp_path / "blank.xyz").write_text(text + " 1" * 24)
+    (tmp_path / "nan.xyz").write_text(" ".join(text.split()[:-1] + ["nan"]))
     points, faces = wing()
     output = morphed(tmp_path, points, faces, boxes, status=1)
     message = " ".join(output.split())

@@ -8,6 +8,7 @@ symmetry of the problem (a rotated box is the mesh rotated, the box, and the
 mesh rotated back); what each constraint means in OpenFOAM.
 """
 
+import math
 import pathlib
 import re
 import shutil
@@ -822,6 +823,105 @@ def test_mesh_in_a_neighbour_is_no_mesh_beyond_a_face(tmp_path):
     np.testing.assert_allclose(
         move(case)[:, 2] - before[:, 2], 0.1, rtol=0, atol=ROUND_OFF
     )
+
+
+def joined(path, continuity, slope, bend, ranks=1):
+    """Two boxes of 0.4 and 0.6 m that share the plane x = 0.4. Rows of control
+    points of both rise by the numbers of a common cubic of x, changed by a kink
+    in the slope, or in the second derivative, of the right one."""
+    n, spans = 3, (0.4, 0.6)
+
+    # Control points at x of Bernstein's form of 0.2 x + 0.3 x^2 + 0.1 x^3
+    def rows(low, span, slope=0, bend=0):
+        f = np.polynomial.Polynomial((0, 0.2, 0.3, 0.1))
+        a = [f.deriv(k)(low) if k else f(low) for k in range(4)]
+        a[1] += slope
+        a[2] += bend
+        # Taylor at its end: b_k = sum_j C(k, j)/C(3, j) a_j span^j/j!
+        terms = [a[0], a[1] * span, a[2] * span**2 / 2, a[3] * span**3 / 6]
+        return [
+            sum(
+                math.comb(k, j) / math.comb(n, j) * terms[j]
+                for j in range(k + 1)
+            )
+            for k in range(n + 1)
+        ]
+
+    def box(name, low, span, heights):
+        moves = [
+            ((i, j, k), (0, 0, float(height)))
+            for i, height in enumerate(heights)
+            for j in (0, 1)
+            for k in (0, 1)
+        ]
+        return ffd_box(
+            name,
+            parameter("m", moves, "1"),
+            order=(n, 1, 1),
+            origin=(low, 0, 0),
+            span=(span, 1, 1),
+            extra=f"units metres; continuity {continuity};",
+        )
+
+    case = ffd_case(
+        path,
+        box("left", 0, spans[0], rows(0, spans[0]))
+        + box(
+            "right", spans[0], spans[1], rows(spans[0], spans[1], slope, bend)
+        ),
+        cells=(10, 2, 2),
+    )
+    if ranks > 1:
+        case.decompose((ranks, 1, 1))
+    return case
+
+
+def test_neighbours_join_as_smoothly_as_continuity_asks_for(tmp_path):
+    """Both boxes carry one cubic of x: the mesh rises by it, to round-off, and
+    it has all derivatives across the common face."""
+    for continuity in ("C0", "C1", "C2"):
+        case = joined(tmp_path / continuity, continuity, 0, 0)
+        before = reference(case)
+        x = before[:, 0]
+        np.testing.assert_allclose(
+            move(case)[:, 2] - before[:, 2],
+            0.2 * x + 0.3 * x**2 + 0.1 * x**3,
+            rtol=0,
+            atol=ROUND_OFF,
+        )
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize(
+    "continuity, slope, bend, words",
+    [
+        ("C0", 0.1, 0.1, None),
+        ("C1", 0.1, 0, ["first derivative", "'continuity C0'"]),
+        ("C1", 0, 0.1, None),
+        ("C2", 0.1, 0, ["first derivative"]),
+        ("C2", 0, 0.1, ["second derivative", "'continuity C1'"]),
+    ],
+)
+def test_a_kink_between_neighbours_is_an_error_where_it_is_not_asked_for(
+    tmp_path, continuity, slope, bend, words, ranks
+):
+    """By the derivatives at x = 0.4 of the cubic, and of the changed one."""
+    case = joined(tmp_path, continuity, slope, bend, ranks)
+    output = case.run("moveDynamicMesh", ranks=ranks, status=1 if words else 0)
+    if words is None:
+        return
+    message = " ".join(output.split())
+    for word in [f"'continuity {continuity[0]}", "'left'", "kink", *words]:
+        assert word in message
+    order = 1 if "first" in words[0] else 2
+    exact = {1: 0.2 + 0.6 * 0.4 + 0.3 * 0.16, 2: 0.6 + 0.6 * 0.4}[order]
+    found = re.search(
+        r"derivative of the displacement is \((\S+) (\S+) (\S+)\) and"
+        r" \((\S+) (\S+) (\S+)\)",
+        message,
+    )
+    assert float(found[3]) == pytest.approx(exact, rel=1e-5)
+    assert float(found[6]) == pytest.approx(exact + slope + bend, rel=1e-5)
 
 
 def test_four_boxes_around_an_edge_move_what_they_share_once(tmp_path):

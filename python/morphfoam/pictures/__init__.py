@@ -6,4 +6,7 @@
     picture     one view of a case, exactly of a box (ParaView)
     scene       surfaces, patches, cuts and lattices in space (ParaView)
     film_strip  pictures side by side (matplotlib)
+    motion      one sheet of a motion, from morphMesh -pictures (matplotlib)
+    preview     parameters of lattices at their bounds (matplotlib)
+    vtk_files   what the two read
 """

@@ -13,11 +13,9 @@ display.
 """
 
 import argparse
-import base64
 import re
 import sys
 from pathlib import Path
-from xml.etree import ElementTree
 
 import matplotlib
 
@@ -27,58 +25,13 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 
-TYPES = {
-    "Float32": "f4",
-    "Float64": "f8",
-    "Int32": "i4",
-    "Int64": "i8",
-    "UInt8": "u1",
-}
+from morphfoam.pictures.vtk_files import (  # noqa: E402
+    read_lattice,
+    read_surface,
+)
 
 # Surfaces with more of them are drawn as points: faces would take minutes
 MANY_FACES = 40000
-
-
-def read_array(element):
-    """A DataArray of a VTK XML file, inline, as text or base64"""
-    kind = TYPES[element.get("type")]
-    text = element.text.strip()
-    if element.get("format") == "ascii":
-        values = np.array(text.split(), kind)
-    else:
-        # The number of bytes stands before the values
-        raw = base64.b64decode("".join(text.split()))
-        size = int(np.frombuffer(raw[:8], "u8")[0])
-        values = np.frombuffer(raw[8 : 8 + size], kind)
-    n = int(element.get("NumberOfComponents", 1))
-    return values.reshape(-1, n) if n > 1 else values
-
-
-def read_surface(path):
-    """Points and faces of a vtp file"""
-    piece = ElementTree.parse(path).getroot().find(".//Piece")
-    points = read_array(piece.find("Points/DataArray")).astype(float)
-    polys = {
-        array.get("Name"): read_array(array)
-        for array in piece.findall("Polys/DataArray")
-    }
-    ends = polys["offsets"]
-    starts = np.concatenate([[0], ends[:-1]])
-    faces = [polys["connectivity"][a:b] for a, b in zip(starts, ends)]
-    return points.reshape(-1, 3), faces
-
-
-def read_lattice(path):
-    """The lines of a lattice, each an n x 3 array"""
-    text = Path(path).read_text()
-    points = re.search(r"POINTS (\d+) double\n", text)
-    numbers = text[points.end() :].split(None, 3 * int(points[1]))
-    points = np.array(numbers[: 3 * int(points[1])], float).reshape(-1, 3)
-    lines = re.search(r"LINES (\d+) \d+\n", text)
-    if not lines:
-        return []
-    rows = text[lines.end() :].splitlines()[: int(lines[1])]
-    return [points[np.array(row.split()[1:], int)] for row in rows]
 
 
 def view_axes(direction):

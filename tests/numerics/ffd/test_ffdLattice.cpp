@@ -159,6 +159,52 @@ TEST(FfdLattice, isTheTensorProductOfBernsteinPolynomials)
 }
 
 
+// All control points move, at the ends and where the functions are least alike
+TEST(FfdLattice, isExactForOrderForty)
+{
+    Random random(40);
+    const Index n = 40;
+    for (const auto& order : std::vector<std::array<Index, 3>>{
+             {{n, 1, 1}}, {{1, n, n}}, {{n, n, n}}})
+    {
+        const FfdLattice lattice =
+            bernsteinLattice(order[0], order[1], order[2]);
+        const Vectors control = randomVectors(random, lattice.size());
+        const Vectors xi = insidePoints(random, 20);
+        const Vectors d = lattice.displacement(lattice.rows(xi), control);
+        for (Index point = 0; point < xi.rows(); ++point)
+        {
+            std::array<std::vector<Real>, 3> b;
+            for (int a = 0; a < 3; ++a)
+            {
+                for (Index i = 0; i <= order[a]; ++i)
+                {
+                    b[a].push_back(bernstein(order[a], i, xi(point, a)));
+                }
+            }
+            Real expected[3] = {0, 0, 0};
+            for (Index i = 0; i < lattice.size(); ++i)
+            {
+                const Index l = i % (order[0] + 1);
+                const Index m = i / (order[0] + 1) % (order[1] + 1);
+                const Index k = i / ((order[0] + 1) * (order[1] + 1));
+                for (int c = 0; c < 3; ++c)
+                {
+                    expected[c] += b[0][std::size_t(l)] * b[1][std::size_t(m)]
+                        * b[2][std::size_t(k)] * Real(control(i, c));
+                }
+            }
+            for (int c = 0; c < 3; ++c)
+            {
+                EXPECT_TRUE(within(
+                    "Bernstein polynomials of order 40",
+                    double(std::abs(expected[c] - Real(d(point, c)))), 1e-14));
+            }
+        }
+    }
+}
+
+
 TEST(BSpline, isThatOfCoxAndDeBoor)
 {
     Random random(2);
