@@ -290,6 +290,67 @@ def test_layers_at_patches_stay(tmp_path):
 
 
 @needs_madlib
+def test_cells_at_periodic_faces_stay(tmp_path):
+    patches = dict(
+        PATCHES,
+        xMin="cyclic; neighbourPatch xMax;",
+        xMax="cyclic; neighbourPatch xMin;",
+    )
+    case = box(tmp_path, patches, cells=(6, 4, 4))
+    remesh_dict(case, "region all;")
+    old = mesh_cells(case, OLD)
+    case.run("morphRemesh")
+    known = frozenset().union(*old)
+    new = {cell & known for cell in mesh_cells(case, NEW) if len(cell) > 4}
+    ends = {cell for cell in old if {p[0] for p in cell} & {0, 1}}
+    assert len(ends) == 32
+    assert ends <= new
+    assert "Mesh OK" in case.run("checkMesh", "-latestTime")
+
+
+@needs_madlib
+def test_polyhedra_are_replaced(tmp_path):
+    case = wavy(tmp_path)
+    case.run("polyDualMesh", "75", "-overwrite")
+    remesh_dict(case, "region all;")
+    output = case.run("morphRemesh")
+    change = re.search(r"relative change (\S+)", output)
+    assert abs(float(change.group(1))) < 1e-12
+    assert "Mesh OK" in case.run("checkMesh", "-latestTime")
+
+
+@needs_madlib
+def test_fields_of_zero_gradient_and_fixed_value_are_written(tmp_path):
+    """A constant stays one, and conditions stay with their patches."""
+    case = wavy(tmp_path)
+    case.write(
+        "0/T",
+        "volScalarField",
+        "dimensions [0 0 0 1 0 0 0]; internalField uniform 3; boundaryField {"
+        " xMin { type fixedValue; value uniform 5; }"
+        ' "(xMax|y.*|z.*)" { type zeroGradient; } }',
+    )
+    case.write(
+        "0/pointDisplacement",
+        "pointVectorField",
+        "dimensions [0 1 0 0 0 0 0]; internalField uniform (0 0 0);"
+        " boundaryField {"
+        ' zMin { type fixedValue; value uniform (0 0 0); } "[xy].*|zMax"'
+        " { type slip; } }",
+    )
+    remesh_dict(case, "region all;")
+    assert "pointDisplacement" in case.run("morphRemesh")
+    text = (case.path / "1/T").read_text()
+    assert re.search(r"internalField\s+uniform 3;", text)
+    assert re.search(
+        r"xMin\s*{\s*type\s+fixedValue;\s*value\s+uniform 5;", text
+    )
+    text = (case.path / "1/pointDisplacement").read_text()
+    assert re.search(r"internalField\s+uniform \(0 0 0\);", text)
+    assert len(re.findall(r"type\s+slip;", text)) == 5
+
+
+@needs_madlib
 def test_the_result_is_the_same_each_time(tmp_path):
     points = []
     for name in ("a", "b"):
