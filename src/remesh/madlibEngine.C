@@ -8,8 +8,11 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "ListOps.H"
 #include "untrapped.H"
 
+#include <csignal>
+#include <cstring>
 #include <iostream>
 #include <sstream>
+#include <unistd.h>
 
 #ifdef MORPHFOAM_MADLIB
 #include <MAdLib/MAdLib.h>
@@ -91,6 +94,43 @@ public:
     ~quietly()
     {
         std::cout.rdbuf(former_);
+    }
+};
+
+
+// Only what a signal handler may call
+static void onAbort(int)
+{
+    static const char words[] =
+        "\n--> FOAM FATAL ERROR:\nMAdLib has found an error of its own and"
+        " stops. Nothing is written\n    Try more layers, region all, another"
+        " sizeFactor, or engine external\n\n";
+    if (::write(STDERR_FILENO, words, sizeof(words) - 1) < 0)
+    {
+        ::_exit(2);
+    }
+    ::_exit(1);
+}
+
+
+//- While one lives, an abort has a message: MAdLib knows no other error
+class explainedAbort
+{
+    struct sigaction former_;
+
+public:
+
+    explainedAbort()
+    {
+        struct sigaction mine;
+        std::memset(&mine, 0, sizeof(mine));
+        mine.sa_handler = onAbort;
+        ::sigaction(SIGABRT, &mine, &former_);
+    }
+
+    ~explainedAbort()
+    {
+        ::sigaction(SIGABRT, &former_, nullptr);
     }
 };
 
@@ -374,6 +414,7 @@ Foam::tetrahedralMesh Foam::madlibEngine::adapt
     // It divides by the volumes of flat tetrahedra
     const untrapped numbers;
     const quietly nothing;
+    const explainedAbort message;
 
     madlibMesh mesh(given);
     MAd::PWLSField sizes(mesh.mesh());
