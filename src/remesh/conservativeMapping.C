@@ -404,7 +404,17 @@ Foam::conservativeMapping::conservativeMapping
     tetrahedra_(inOrder(map.before, donors_)),
     volumes_(mesh.cellVolumes(), donors_),
     areas_(mesh.faceAreas()),
-    points_(mesh.points())
+    points_(mesh.points()),
+    nOldInternalFaces_(mesh.nInternalFaces()),
+    boundaryFaces_
+    (
+        SubList<face>
+        (
+            mesh.faces(),
+            mesh.nFaces() - mesh.nInternalFaces(),
+            mesh.nInternalFaces()
+        )
+    )
 {
     std::vector<morph::Box> boxes;
     for (const auto& corners : tetrahedra_.corners)

@@ -398,6 +398,25 @@ void Foam::conservativeMapping::givePoints()
     {
         return;
     }
+    // New points of patches take what is on the patch: a body's points go with
+    // the body
+    Map<label> oldFace;
+    for
+    (
+        label facei = mesh_.nInternalFaces();
+        facei < mesh_.nFaces();
+        ++facei
+    )
+    {
+        for (const label pointi : mesh_.faces()[facei])
+        {
+            if (map_.pointMap[pointi] < 0 && map_.faceMap[facei] >= 0)
+            {
+                oldFace.insert(pointi, map_.faceMap[facei]);
+            }
+        }
+    }
+
     forAll(map_.pointMap, pointi)
     {
         if (map_.pointMap[pointi] >= 0)
@@ -405,15 +424,19 @@ void Foam::conservativeMapping::givePoints()
             continue;
         }
         const point& x = mesh_.points()[pointi];
-        const label donori = donorAround(x);
-        if (donori < 0)
+        const label facei = oldFace.lookup(pointi, -1) - nOldInternalFaces_;
+        const label donori = facei < 0 ? donorAround(x) : -1;
+        if (facei < 0 && donori < 0)
         {
             continue;
         }
 
-        // The plane through the values at the points of the cell around, by
-        // least squares, nearer ones first
-        const labelList& around = cellPoints_[donori];
+        // The plane through the values at the points of the face or cell
+        // around, by least squares, nearer ones first
+        const labelUList& around =
+            facei < 0
+          ? static_cast<const labelUList&>(cellPoints_[donori])
+          : boundaryFaces_[facei];
         morph::Matrix matrix(around.size(), 4);
         forAll(around, i)
         {

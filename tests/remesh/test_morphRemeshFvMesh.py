@@ -226,3 +226,22 @@ def test_at_max_remeshes_the_last_valid_mesh_is_written(tmp_path):
     check = case.run("checkMesh", "-time", time)
     assert re.search(r"cells:\s+%d\n" % cells, check)
     assert "Mesh OK" in check
+
+
+def test_new_points_of_a_body_go_with_it(tmp_path):
+    """Wherever they are put on the top: it stays plane, and all of it makes the
+    motion that is prescribed."""
+    case = flow(
+        tmp_path, remesh="region all; sizeFactor 0.5; passes 1;", end=18
+    )
+    output = case.run("pimpleFoam")
+    assert remeshings(output) >= 1
+    time = times(case)[-1]
+    points = case.points(f"{time}/polyMesh/points")
+    origin = read_internal(case, f"{time}/motionOrigin")
+    top = points[:, 2] > 1 - 1e-6
+    away = 3.5 * np.sin(float(time))
+    assert top.sum() > 49
+    np.testing.assert_allclose(
+        points[top], origin[top] + [away, 0, 0], rtol=0, atol=1e-12
+    )
