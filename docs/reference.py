@@ -138,6 +138,7 @@ EXPLAINED = [
 
 # Sources that read what no user writes, and why
 NOT_A_USERS = {
+    "caseSelection": "options of applications",
     "rbfMotionState": "the file that a restart reads",
     "cellDisplacementField": "OpenFOAM's own field file",
     "otherSolvers": "entries of OpenFOAM's motion solvers, for messages",

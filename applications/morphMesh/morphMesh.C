@@ -114,6 +114,7 @@ Usage
 #include "argList.H"
 #include "Time.H"
 #include "fvMesh.H"
+#include "caseSelection.H"
 #include "clockTime.H"
 #include "meshFiles.H"
 #include "morphMeshControls.H"
@@ -257,8 +258,8 @@ static bool morph(const argList& args)
 
     const clockTime clock;
 
-    morphMeshInput::selectTime(args, runTime);
-    morphMeshInput::checkRegion(runTime, regionName);
+    caseSelection::selectTime(args, runTime);
+    caseSelection::checkRegion(runTime, regionName);
 
     Info<< "Moving mesh " << regionName << " at time " << runTime.timeName()
         << nl << endl;

@@ -49,6 +49,7 @@ Usage
 
 #include "allFields.H"
 #include "argList.H"
+#include "caseSelection.H"
 #include "clockTime.H"
 #include "conservativeMapping.H"
 #include "dictionaryChecks.H"
@@ -56,7 +57,6 @@ Usage
 #include "IOdictionary.H"
 #include "meshFiles.H"
 #include "meshQuality.H"
-#include "morphMeshInput.H"
 #include "morphVersion.H"
 #include "plainText.H"
 #include "pointFields.H"
@@ -210,8 +210,8 @@ static bool remesh(const argList& args)
         const instantList times(runTime.times());
         runTime.setTime(times.last(), times.size() - 1);
     }
-    morphMeshInput::selectTime(args, runTime);
-    morphMeshInput::checkRegion(runTime, regionName);
+    caseSelection::selectTime(args, runTime);
+    caseSelection::checkRegion(runTime, regionName);
     Info<< "Re-meshing mesh " << regionName << " at time "
         << runTime.timeName() << nl << endl;
     autoPtr<fvMesh> meshPtr(meshFiles::read(runTime, regionName));
@@ -250,7 +250,8 @@ static bool remesh(const argList& args)
         const cavityFaces::figures& found = remeshing.found();
         FatalIOErrorInFunction(settings.dict)
             << "New cells exceed the limits in all of " << settings.passes
-            << " passes; the best has non-orthogonality " << found.nonOrthogonality << " (limit "
+            << " passes; the best has non-orthogonality "
+            << found.nonOrthogonality << " (limit "
             << settings.nonOrthogonality << "), skewness " << found.skewness
             << " (limit " << settings.skewness << "); nothing is written" << nl
             << "    Raise the limits, keep fewer layers (keepLayers), or change"
