@@ -8,6 +8,8 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "StringStream.H"
 
+#include <numeric>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -203,6 +205,42 @@ void Foam::rbfControlPoints::checkFinite
 }
 
 
+std::vector<morph::Index> Foam::rbfControlPoints::withoutDuplicates
+(
+    const label regioni,
+    const morph::ControlPoints& points,
+    const scalar tolerance
+)
+{
+    // From one motion to the next they stay at their places
+    distinct_.setSize(candidates_.size());
+    std::vector<morph::Vector3>& distinct = distinct_[regioni];
+    bool known = distinct.size() == points.size();
+    for (std::size_t i = 0; known && i < points.size(); ++i)
+    {
+        known = distinct[i] == points[i].position;
+    }
+    if (known)
+    {
+        std::vector<morph::Index> every(points.size());
+        std::iota(every.begin(), every.end(), morph::Index(0));
+        return every;
+    }
+
+    const std::vector<morph::Index> kept =
+        morph::withoutDuplicates(points, tolerance);
+    distinct.clear();
+    if (kept.size() == points.size())
+    {
+        for (const morph::ControlPoint& p : points)
+        {
+            distinct.push_back(p.position);
+        }
+    }
+    return kept;
+}
+
+
 void Foam::rbfControlPoints::mergeDuplicates
 (
     const List<controlCandidates>& all
@@ -225,9 +263,9 @@ void Foam::rbfControlPoints::mergeDuplicates
         std::vector<morph::Index> kept;
         try
         {
-            kept = morph::withoutDuplicates
+            kept = withoutDuplicates
             (
-                c.whole, sameDisplacement*largest
+                regioni, c.whole, sameDisplacement*largest
             );
         }
         catch (const morph::ConflictingControlPoints& conflict)
@@ -242,6 +280,7 @@ void Foam::rbfControlPoints::mergeDuplicates
         controlCandidates& merged = candidates_[regioni];
         merged.meshPoints.setSize(kept.size());
         merged.places.setSize(kept.size());
+        merged.whole.reserve(kept.size());
         forAll(merged.places, j)
         {
             const label i = c.places[kept[j]];

@@ -5,6 +5,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "invalidMotion.H"
 #include "movedGeometry.H"
+#include "movedPart.H"
 #include "plainText.H"
 #include "syncTools.H"
 #include "Tuple2.H"
@@ -37,6 +38,44 @@ static inline scalar worth(const scalar volume)
 static inline label countAll(const bitSet& local)
 {
     return returnReduce(label(local.count()), sumOp<label>());
+}
+
+
+// What round-off may be, of an area times distances from the origin
+static const scalar roundOff = 1e-11;
+
+
+// Of a face about its mean point; pyramids are six times their volume
+static void faceGeometry
+(
+    const face& f,
+    const pointField& points,
+    vector& centre,
+    vector& area
+)
+{
+    point middle(Zero);
+    for (const label pointi : f)
+    {
+        middle += points[pointi];
+    }
+    middle /= f.size();
+
+    vector sum(Zero);
+    vector weighted(Zero);
+    scalar weights = 0;
+    forAll(f, i)
+    {
+        const point& a = points[f[i]];
+        const point& b = points[f.nextLabel(i)];
+        const vector n((b - a) ^ (middle - a));
+        const scalar weight = mag(n);
+        sum += n;
+        weighted += weight*(a + b + middle);
+        weights += weight;
+    }
+    area = 0.5*sum;
+    centre = weighted/(3*weights + VSMALL);
 }
 
 
@@ -117,28 +156,118 @@ void Foam::invalidMotion::addCellsOf
 }
 
 
+bool Foam::invalidMotion::surelyValid
+(
+    const polyMesh& mesh,
+    const pointField& points,
+    const movedPart& part
+)
+{
+    const label nFaces = part.faces().size();
+    const label nCells = part.cells().size();
+    pointField centres(nFaces);
+    vectorField areas(nFaces);
+    pointField middles(nCells, Zero);
+    labelList sides(nCells, Zero);
+
+    const auto eachSide = [&](const auto& use)
+    {
+        for (label i = 0; i < nFaces; ++i)
+        {
+            if (part.owner()[i] >= 0)
+            {
+                use(i, part.owner()[i], 1);
+            }
+            if (part.neighbour()[i] >= 0)
+            {
+                use(i, part.neighbour()[i], -1);
+            }
+        }
+    };
+
+    for (label i = 0; i < nFaces; ++i)
+    {
+        faceGeometry
+        (
+            mesh.faces()[part.faces()[i]], points, centres[i], areas[i]
+        );
+    }
+    eachSide([&](const label i, const label celli, const int)
+    {
+        middles[celli] += centres[i];
+        ++sides[celli];
+    });
+    for (label celli = 0; celli < nCells; ++celli)
+    {
+        middles[celli] /= sides[celli];
+    }
+
+    pointField weighted(nCells, Zero);
+    scalarField volumes(nCells, Zero);
+    scalarField sizes(nCells, Zero);
+    eachSide([&](const label i, const label celli, const int sign)
+    {
+        const scalar volume = sign*(areas[i] & (centres[i] - middles[celli]));
+        volumes[celli] += volume;
+        weighted[celli] += volume*(0.75*centres[i] + 0.25*middles[celli]);
+        sizes[celli] += mag(areas[i])*mag(centres[i]);
+    });
+
+    bool valid = true;
+    for (label celli = 0; celli < nCells; ++celli)
+    {
+        valid = valid && volumes[celli] > roundOff*sizes[celli];
+        middles[celli] = weighted[celli]/volumes[celli];
+    }
+    eachSide([&](const label i, const label celli, const int sign)
+    {
+        const vector out(centres[i] - middles[celli]);
+        const scalar size = mag(areas[i])*(mag(centres[i]) + mag(out));
+        valid = valid && sign*(areas[i] & out) > roundOff*size;
+    });
+    return valid;
+}
+
+
 void Foam::invalidMotion::check
 (
     const polyMesh& mesh,
     const pointField* reference,
-    const pointField& points
+    const pointField& points,
+    const movedPart* part
 )
 {
     typedef movedGeometry geometry;
 
-    const geometry after(mesh, points);
-    bitSet faces(geometry::nonPositive(after.pyramidVolumes()));
-    bitSet cells(geometry::nonPositive(after.cellVolumes()));
-
     // A valid motion costs no more than this
-    const label nLocal = faces.count() + cells.count();
+    autoPtr<geometry> made;
+    bitSet cells;
+    label nLocal = 1;
+    if (part && !part->most())
+    {
+        nLocal = !surelyValid(mesh, points, *part);
+    }
+    else
+    {
+        made.reset(new geometry(mesh, points));
+        cells = geometry::nonPositive(made->cellVolumes());
+        nLocal =
+            geometry::nonPositive(made->pyramidVolumes()).count()
+          + cells.count();
+    }
     if (returnReduce(nLocal, sumOp<label>()) == 0)
     {
         return;
     }
 
+    if (!made.valid())
+    {
+        made.reset(new geometry(mesh, points));
+        cells = geometry::nonPositive(made->cellVolumes());
+    }
+    const geometry& after = made();
     const scalarField pyramids(after.syncedPyramidVolumes());
-    faces = geometry::nonPositive(pyramids);
+    bitSet faces(geometry::nonPositive(pyramids));
 
     if (reference)
     {
@@ -195,6 +324,22 @@ Foam::invalidMotion::invalidMotion
     where_(Zero)
 {
     check(mesh, &reference, points);
+}
+
+
+Foam::invalidMotion::invalidMotion
+(
+    const polyMesh& mesh,
+    const pointField& reference,
+    const pointField& points,
+    const movedPart& part
+)
+:
+    nFaces_(0),
+    nCells_(0),
+    where_(Zero)
+{
+    check(mesh, &reference, points, &part);
 }
 
 

@@ -349,12 +349,12 @@ void Foam::cellDisplacementField::hear()
 }
 
 
-void Foam::cellDisplacementField::tell()
+void Foam::cellDisplacementField::tell(const movedPart& part)
 {
     const vectorField& d = pointDisplacement_.primitiveField();
     vectorField& cells = primitiveFieldRef();
     cells = Zero;
-    forAll(mesh().faces(), facei)
+    for (const label facei : part.faces())
     {
         const face& f = mesh().faces()[facei];
         vector mean(Zero);
@@ -369,28 +369,41 @@ void Foam::cellDisplacementField::tell()
             cells[mesh().faceNeighbour()[facei]] += mean;
         }
     }
-    forAll(cells, celli)
+    for (const label celli : part.cells())
     {
         cells[celli] /= mesh().cells()[celli].size();
     }
 
     // Not by their own evaluate(), with which overset patches would interpolate
-    const pointField& points = mesh().points();
+    boolList follows(written_.size());
     forAll(written_, patchi)
     {
         fvPatchVectorField& values = boundaryFieldRef()[patchi];
-        if
-        (
-           !written_[patchi]
-         && isA<cellMotionFvPatchField<vector>>(values)
-        )
+        follows[patchi] =
+            !written_[patchi] && isA<cellMotionFvPatchField<vector>>(values);
+        if (follows[patchi])
         {
-            const polyPatch& patch = mesh().boundaryMesh()[patchi];
-            forAll(patch, facei)
-            {
-                values[facei] = patch[facei].average(points, d);
-            }
+            static_cast<vectorField&>(values) = Zero;
         }
+    }
+    const label nInternal = mesh().nInternalFaces();
+    const auto first = std::lower_bound
+    (
+        part.faces().begin(), part.faces().end(), nInternal
+    );
+    for (auto i = first; i != part.faces().end(); ++i)
+    {
+        const label patchi = mesh().boundaryMesh().patchID()[*i - nInternal];
+        if (follows[patchi])
+        {
+            boundaryFieldRef()[patchi]
+            [
+                *i - mesh().boundaryMesh()[patchi].start()
+            ] = mesh().faces()[*i].average(mesh().points(), d);
+        }
+    }
+    forAll(written_, patchi)
+    {
         faces_[patchi] = faces(patchi);
         points_[patchi] = this->points(patchi);
     }

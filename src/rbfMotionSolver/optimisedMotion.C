@@ -58,7 +58,7 @@ public:
 
 Foam::optimisedMotion::optimisedMotion
 (
-    const rbfMotionProblem& problem,
+    rbfMotionProblem& problem,
     const pointField& target
 )
 :

@@ -48,7 +48,8 @@ Foam::rbfMotionProblem::rbfMotionProblem
     ),
     radius_(settings, formerRadius),
     span_(boundBox(points0, true).mag()),
-    accuracy_(mesh, points0, settings, reduced_.nRegions())
+    accuracy_(mesh, points0, settings, reduced_.nRegions()),
+    part_(mesh)
 {}
 
 
@@ -246,9 +247,12 @@ Foam::tmp<Foam::vectorField> Foam::rbfMotionProblem::expand
 }
 
 
-bool Foam::rbfMotionProblem::isValid(const vectorField& displacement) const
+bool Foam::rbfMotionProblem::isValid(const vectorField& displacement)
 {
-    return invalidMotion(mesh_, points0_, points0_ + displacement).empty();
+    return invalidMotion
+    (
+        mesh_, points0_, points0_ + displacement, part(displacement)
+    ).empty();
 }
 
 

@@ -214,7 +214,10 @@ void Foam::rbfMotionSolver::deform()
     }
     if (cellDisplacement_.valid())
     {
-        cellDisplacement_->tell();
+        cellDisplacement_->tell
+        (
+            maker_->part(pointDisplacement_.primitiveField())
+        );
     }
     if (debug)
     {

@@ -99,9 +99,7 @@ def test_bodies_of_two_regions_restart_to_the_last_bit(tmp_path, application):
     whole.run("moveRegions", "(air water)")
     parts = make_case(tmp_path / "parts")
     for steps in (STEPS // 2, STEPS):
-        write_control(
-            parts, end=steps * DT, deltaT=DT, startFrom="latestTime"
-        )
+        write_control(parts, end=steps * DT, deltaT=DT, startFrom="latestTime")
         output = parts.run("moveRegions", "(air water)")
     assert output.count("sixDoFRigidBody.low: continues") == 2
     for region in REGIONS:

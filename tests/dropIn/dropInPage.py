@@ -252,5 +252,5 @@ the displacement `sixDoFRigidBody`, beside the patches that stay. There flow
 moves the body, in either run its own."""
 
 LIMITS = """The message says so. Beside these there are {n} tutorials of
-`adjointOptimisationFoam`: its control points are what it optimises, and it
-selects among solvers of its own."""
+`adjointOptimisationFoam`, which has control points of its own to optimise;
+its mesh can follow by `rbfMotionSolver` ([how](time.md#adjoint-optimisation))."""

@@ -156,6 +156,20 @@ HULL = described_body(
         " sphericalAngularDamper; coeff 11586; } }",
     )
 )
+# A hull in 20,295 cells: four of the six refinements about it, no layers
+COARSE_HULL = (
+    ("Allrun", "for i in 1 2 3 4 5 6", "for i in 2 3 4 5"),
+    (
+        "system/blockMeshDict",
+        r"\(42 19 50\)(?= simpleGrading \(1 1 0)",
+        "(28 12 12)",
+    ),
+    ("system/blockMeshDict", r"\(42 19 50\)", "(28 12 10)"),
+    ("system/blockMeshDict", r"\(42 19 4\)", "(28 12 1)"),
+    ("system/blockMeshDict", r"\(42 19 40\)", "(28 12 8)"),
+    ("system/blockMeshDict", r"\(42 19 20\)", "(28 12 5)"),
+    ("system/snappyHexMeshDict", r"addLayers +true", "addLayers false"),
+)
 DESCRIBED = dict(BODY, changed="the body by displacement `sixDoFRigidBody`")
 
 
@@ -243,16 +257,16 @@ KNOWN = [
     ),
     Tutorial(
         "multiphase/interFoam/RAS/DTCHullMoving",
-        0.3,
         bodies=("hull",),
-        steps=5,
+        edits=COARSE_HULL,
+        deltaT=0.005,
         **dict(DESCRIBED, change=HULL),
     ),
     Tutorial(
         "multiphase/interFoam/RAS/DTCHullMoving",
-        0.3,
         bodies=("hull",),
-        steps=5,
+        edits=COARSE_HULL,
+        deltaT=0.005,
         dict="dynamicMeshDict.sixDoF",
         **BODY,
     ),
@@ -324,7 +338,8 @@ KNOWN = [
     ),
     Tutorial(
         OVER + "boatAndPropeller",
-        0.4,
+        # Coarser, no cells are left between the overset parts and the walls
+        0.6,
         own=True,
         bodies=("hullWall", "propellerWall", "rudderWall"),
         tolerance=0.05,

@@ -82,6 +82,10 @@ def test_a_floating_body_goes_where_it_does_with_a_rigid_body_solver(
     for row in rows(case / "results/trajectory.csv", "motion").values():
         assert float(row["largest difference, of that"]) < 0.02
         assert float(row["largest, rbf"]) > 1e-4
+    restart = rows(case / "results/restart.csv", "figure")
+    assert len(restart) == 2
+    for row in restart.values():
+        assert float(row["value"]) < 1e-6
 
 
 def test_a_column_twists_by_180_degrees_and_comes_back(tmp_path_factory):

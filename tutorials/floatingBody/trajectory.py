@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 """Sway and pitch of the floating box with our motion solver and OpenFOAM's, at
-the times of the latter, in a table (results/trajectory.csv and .md)."""
+the times of the latter, and what a restart half-way changes, in tables
+(results/trajectory and restart, .csv and .md)."""
 
 import math
 import re
 from pathlib import Path
 
+from morphfoam.output.tables import write_table
 from morphfoam.output.trajectories import compare
 
 here = Path(__file__).resolve().parent
@@ -38,10 +40,25 @@ def trajectory(name):
     return times, sway, pitch
 
 
+MOTIONS = ["sway [m]", "pitch [deg]"]
+
 compare(
     trajectory("rbf"),
     trajectory("rigidBody"),
     "rigidBody",
-    ["sway [m]", "pitch [deg]"],
+    MOTIONS,
     here / "results/trajectory",
 )
+if (here / "runs/restarted/log.interFoam").exists():
+    whole, again = trajectory("rbf"), trajectory("restarted")
+    write_table(
+        [
+            {
+                "figure": f"restarted, difference of {motion}, of the largest",
+                "value": abs(whole[i][-1] - again[i][-1])
+                / max(map(abs, whole[i])),
+            }
+            for i, motion in enumerate(MOTIONS, 1)
+        ],
+        here / "results/restart",
+    )
