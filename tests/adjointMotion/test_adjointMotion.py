@@ -13,8 +13,6 @@ import re
 import shutil
 
 import numpy as np
-import pytest
-
 from boxCase import point_field
 from foamCase import FoamCase, environment
 from tutorialCase import Mesh
