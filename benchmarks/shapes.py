@@ -93,9 +93,7 @@ def main(file):
         "| --- | --- | --- |",
     ]
     for name, row in zip(BOXES, rows):
-        lines.append(
-            f"| {name} | {float(row[4]):.4f} | {float(row[5]):.4f} |"
-        )
+        lines.append(f"| {name} | {float(row[4]):.4f} | {float(row[5]):.4f} |")
     lines += [
         "",
         "| constraints | once [s] | values and derivatives by six variables"
@@ -103,9 +101,7 @@ def main(file):
         "| --- | --- | --- |",
     ]
     for name, row in zip((*CONSTRAINTS, "all of them"), rows[len(BOXES) :]):
-        lines.append(
-            f"| {name} | {float(row[3]):.3f} | {float(row[6]):.4f} |"
-        )
+        lines.append(f"| {name} | {float(row[3]):.3f} | {float(row[6]):.4f} |")
     pathlib.Path(file).write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
 

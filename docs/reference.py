@@ -170,6 +170,7 @@ NOT_AN_ENTRY = {
     ("ffdCorrection", "max"): "refused: a number to keep has no bounds",
     ("morphRemeshFvMesh", "correctPhi"): "of OpenFOAM's fvSolution",
     ("morphRemeshFvMesh", "ddtSchemes"): "of OpenFOAM's fvSchemes",
+    ("morphRemeshFvMesh", "inVain"): "in the file that a restart reads",
     ("morphRemeshFvMesh", "lastStep"): "in the file that a restart reads",
     ("morphRemeshFvMesh", "remeshings"): "in the file that a restart reads",
     ("ffdBulk", "s"): "a direction",

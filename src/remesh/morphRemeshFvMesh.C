@@ -184,6 +184,20 @@ Foam::word Foam::morphRemeshFvMesh::writeLastValid()
 }
 
 
+Foam::scalar Foam::morphRemeshFvMesh::excess
+(
+    const scalar nonOrthogonality,
+    const scalar skewness
+) const
+{
+    return max
+    (
+        nonOrthogonality/settings_.nonOrthogonality,
+        skewness/settings_.skewness
+    );
+}
+
+
 bool Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
 {
     const scalar start = time().elapsedCpuTime();
@@ -214,23 +228,13 @@ bool Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
             << nl << exit(FatalIOError);
     }
     state_.set("lastStep", time().timeIndex());
-    const auto worst = [&](const scalar nonOrthogonality, const scalar skewness)
-    {
-        return max
-        (
-            nonOrthogonality/settings_.nonOrthogonality,
-            skewness/settings_.skewness
-        );
-    };
     const cavityFaces::figures& made = change.found();
-    const scalar ofNew = worst(made.nonOrthogonality, made.skewness);
-    if
-    (
-        predicted.valid()
-     && ofNew > 1
-     && ofNew >= worst(predicted.nonOrthogonality(), predicted.skewness())
-    )
+    const scalar ofNew = excess(made.nonOrthogonality, made.skewness);
+    const scalar ofOld =
+        excess(predicted.nonOrthogonality(), predicted.skewness());
+    if (predicted.valid() && ofNew > 1 && ofNew >= ofOld)
     {
+        state_.set("inVain", ofOld);
         Info<< "    New cells would be no better: the old ones stay" << endl;
         cpuTime_ += time().elapsedCpuTime() - start;
         return false;
@@ -246,6 +250,7 @@ bool Foam::morphRemeshFvMesh::remesh(const predictedMesh& predicted)
     motion().points0() = points();
 
     state_.set("remeshings", nRemeshes() + 1);
+    state_.remove("inVain");
     const scalar seconds = time().elapsedCpuTime() - start;
     cpuTime_ += seconds;
     Info<< "    Re-meshing " << nRemeshes() << ": " << nBefore << " cells, then "
@@ -267,10 +272,13 @@ bool Foam::morphRemeshFvMesh::update()
     predictedMesh predicted(*this, next, settings_);
 
     // A mesh that was just made, and does not keep to the limits, is not made
-    // better by doing it again at once
-    const bool again =
-        state_.getOrDefault<label>("lastStep", -1) == updated_ - 1;
-    if (first && (again ? !predicted.valid() : !predicted.good()))
+    // better by doing it again at once, nor one of which new cells were no
+    // better until it is worse than it was then
+    const bool wait =
+        state_.getOrDefault<label>("lastStep", -1) == updated_ - 1
+     || excess(predicted.nonOrthogonality(), predicted.skewness())
+      < 1.03*state_.getOrDefault<scalar>("inVain", 0);
+    if (first && (wait ? !predicted.valid() : !predicted.good()))
     {
         changed = remesh(predicted);
     }

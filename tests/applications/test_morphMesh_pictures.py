@@ -26,7 +26,9 @@ SHEET = "postProcessing/morphMesh/1/controls"
 def sheet_data(folder):
     """Windows and worst cells by name, and the faces of the windows as sets of
     corners, rounded: ranks write them in another order."""
-    windows = {row["window"]: row for row in motion.table(folder / "windows.dat")}
+    windows = {
+        row["window"]: row for row in motion.table(folder / "windows.dat")
+    }
     faces = {}
     for name in windows:
         points, polygons, data = vtk_files.read_surface_data(
@@ -34,7 +36,9 @@ def sheet_data(folder):
         )
         after = points + data["displacement"].reshape(-1, 3)
         faces[name] = sorted(
-            sorted(map(tuple, np.round(np.hstack([points, after])[f], 5) + 0.0))
+            sorted(
+                map(tuple, np.round(np.hstack([points, after])[f], 5) + 0.0)
+            )
             for f in polygons
         )
     return windows, motion.table(folder / "worstCells.dat"), faces

@@ -319,7 +319,8 @@ class Window:
 
     def largest(self):
         values = [
-            self.data[f"nonOrthogonality{when}"] for when in ("Before", "After")
+            self.data[f"nonOrthogonality{when}"]
+            for when in ("Before", "After")
         ]
         return max([1.0] + [float(v.max()) for v in values if v.size])
 
