@@ -101,9 +101,7 @@ def test_a_sweep_runs_on_the_nodes(tmp_path, cluster):
     said = Sweep(study, cluster, 0).end()
     right(study)
     assert f"[{len(GOOD)}/{len(GOOD)}]" in said and " left" in said
-    assert all(
-        runs(study, f"{n:04d}") == 1 for n in range(1, len(GOOD) + 1)
-    )
+    assert all(runs(study, f"{n:04d}") == 1 for n in range(1, len(GOOD) + 1))
     told = cluster.ask("scontrol", "-o", "show", "job")
     assert told.count("JobState=COMPLETED") == len(GOOD) + 1
     assert "BatchHost=n1" in told and "BatchHost=n2" in told
@@ -145,7 +143,8 @@ def test_a_sweep_that_is_killed_leaves_no_jobs_to_the_next(tmp_path, cluster):
     right(study)
     assert "jobs of a former run are cancelled" in said
     wait_until(
-        lambda: not cluster.ask("squeue", "--noheader").strip(), "jobs are left"
+        lambda: not cluster.ask("squeue", "--noheader").strip(),
+        "jobs are left",
     )
     assert not processes(study.folder)
 

@@ -171,10 +171,14 @@ class SlurmCluster:
 
     def hasten(self):
         """Jobs put back into the queue wait for two minutes otherwise."""
-        for line in self.ask("squeue", "--noheader", "-o", "%i %r").split("\n"):
+        for line in self.ask("squeue", "--noheader", "-o", "%i %r").split(
+            "\n"
+        ):
             number, _, reason = line.partition(" ")
             if reason == "BeginTime":
-                self.ask("scontrol", "update", f"JobId={number}", "StartTime=now")
+                self.ask(
+                    "scontrol", "update", f"JobId={number}", "StartTime=now"
+                )
 
     def start(self, node):
         self._launch(node, "slurmd", "-D", "-N", node, "-f", self.conf)

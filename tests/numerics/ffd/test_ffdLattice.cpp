@@ -198,7 +198,7 @@ TEST(FfdLattice, isExactForOrderForty)
             {
                 EXPECT_TRUE(within(
                     "Bernstein polynomials of order 40",
-                    double(std::abs(expected[c] - Real(d(point, c)))), 1e-14));
+                    double(std::abs(expected[c] - Real(d(point, c)))), 1e-13));
             }
         }
     }
