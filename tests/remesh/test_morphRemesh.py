@@ -341,9 +341,9 @@ def test_fields_of_zero_gradient_and_fixed_value_are_written(tmp_path):
     remesh_dict(case, "region all;")
     assert "pointDisplacement" in case.run("morphRemesh")
     text = (case.path / "1/T").read_text()
-    values = re.search(
-        r"nonuniform List<scalar>\s*\d+\s*\(([^)]*)\)", text
-    )[1].split()
+    values = re.search(r"nonuniform List<scalar>\s*\d+\s*\(([^)]*)\)", text)[
+        1
+    ].split()
     np.testing.assert_allclose(np.array(values, float), 3, rtol=1e-14)
     assert re.search(
         r"xMin\s*{\s*type\s+fixedValue;\s*value\s+uniform 5;", text
