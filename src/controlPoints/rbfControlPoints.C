@@ -8,7 +8,6 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "eigenFields.H"
 #include "StringStream.H"
 
-#include <numeric>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -144,6 +143,10 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 {
     List<controlCandidates> all(reduced_.nRegions());
     List<DynamicList<label>> places(all.size());
+    if (all.size() == 1)
+    {
+        all[0].whole.reserve(controlled_.size() + freeValues.size());
+    }
     for (label i = 0; i < controlled_.size(); ++i)
     {
         const bool first = controlled_.firstCopy(i) || !images_.periodic();
@@ -180,6 +183,23 @@ void Foam::rbfControlPoints::collectCandidates(const vectorField& freeValues)
 }
 
 
+const morph::Coincident& Foam::rbfControlPoints::coincident
+(
+    const label regioni,
+    const controlCandidates& c
+)
+{
+    coincident_.setSize(reduced_.nRegions());
+    coincidentPlaces& known = coincident_[regioni];
+    if (known.places != c.places)
+    {
+        known.places = c.places;
+        known.sets = morph::coincident(c.whole);
+    }
+    return known.sets;
+}
+
+
 void Foam::rbfControlPoints::checkFinite
 (
     const List<controlCandidates>& all
@@ -205,46 +225,7 @@ void Foam::rbfControlPoints::checkFinite
 }
 
 
-std::vector<morph::Index> Foam::rbfControlPoints::withoutDuplicates
-(
-    const label regioni,
-    const morph::ControlPoints& points,
-    const scalar tolerance
-)
-{
-    // From one motion to the next they stay at their places
-    distinct_.setSize(candidates_.size());
-    std::vector<morph::Vector3>& distinct = distinct_[regioni];
-    bool known = distinct.size() == points.size();
-    for (std::size_t i = 0; known && i < points.size(); ++i)
-    {
-        known = distinct[i] == points[i].position;
-    }
-    if (known)
-    {
-        std::vector<morph::Index> every(points.size());
-        std::iota(every.begin(), every.end(), morph::Index(0));
-        return every;
-    }
-
-    const std::vector<morph::Index> kept =
-        morph::withoutDuplicates(points, tolerance);
-    distinct.clear();
-    if (kept.size() == points.size())
-    {
-        for (const morph::ControlPoint& p : points)
-        {
-            distinct.push_back(p.position);
-        }
-    }
-    return kept;
-}
-
-
-void Foam::rbfControlPoints::mergeDuplicates
-(
-    const List<controlCandidates>& all
-)
+void Foam::rbfControlPoints::mergeDuplicates(List<controlCandidates>& all)
 {
     scalar largest = 0;
     for (const controlCandidates& c : all)
@@ -256,16 +237,15 @@ void Foam::rbfControlPoints::mergeDuplicates
     }
 
     OStringStream message;
-    candidates_ = List<controlCandidates>(all.size());
     forAll(all, regioni)
     {
-        const controlCandidates& c = all[regioni];
+        controlCandidates& c = all[regioni];
         std::vector<morph::Index> kept;
         try
         {
-            kept = withoutDuplicates
+            kept = morph::withoutDuplicates
             (
-                regioni, c.whole, sameDisplacement*largest
+                c.whole, coincident(regioni, c), sameDisplacement*largest
             );
         }
         catch (const morph::ConflictingControlPoints& conflict)
@@ -277,20 +257,26 @@ void Foam::rbfControlPoints::mergeDuplicates
             break;
         }
 
-        controlCandidates& merged = candidates_[regioni];
-        merged.meshPoints.setSize(kept.size());
-        merged.places.setSize(kept.size());
-        merged.whole.reserve(kept.size());
-        forAll(merged.places, j)
+        for (label j = 0; j < label(kept.size()); ++j)
         {
-            const label i = c.places[kept[j]];
-            merged.whole.push_back(c.whole[kept[j]]);
-            merged.meshPoints[j] = i < 0 ? -1 : controlled_.labels()[i];
-            merged.places[j] = i;
+            if (kept[j] != j)
+            {
+                c.whole[j] = c.whole[kept[j]];
+                c.places[j] = c.places[kept[j]];
+            }
         }
-        merged.conditions = merged.whole;
+        c.whole.resize(kept.size());
+        c.places.setSize(kept.size());
+        c.meshPoints.setSize(kept.size());
+        forAll(c.places, j)
+        {
+            const label i = c.places[j];
+            c.meshPoints[j] = i < 0 ? -1 : controlled_.labels()[i];
+        }
+        c.conditions = c.whole;
     }
     dictionaryChecks::stopIf(dict_, message.str());
+    candidates_.transfer(all);
 }
 
 
@@ -410,15 +396,23 @@ bool Foam::rbfControlPoints::update(const bool rebuild)
         start_ = Zero;
     }
 
+    // Directions that do not follow from positions stay until they are rebuilt
+    const bool stay =
+        !changed && !rebuild && conditions_.size() == controlled_.size();
     follow_ = false;
     conditions_.setSize(controlled_.size());
     for (label i = 0; i < controlled_.size(); ++i)
     {
-        conditions_[i] = condition
+        morph::ControlPoint& p = conditions_[i];
+        if (stay && !(controlled_.slides(i) && sliding_.follows(i)))
+        {
+            p.setDisplacement(toEigen(d[i]));
+            continue;
+        }
+        p = condition
         (
             controlled_.position(i), controlled_.slides(i), sliding_.normals(i), d[i]
         );
-        morph::ControlPoint& p = conditions_[i];
         if (p.slides() && sliding_.follows(i))
         {
             follow_ = true;

@@ -9,6 +9,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "foamCompat.H"
 #include "labelPairHashes.H"
 #include "meshImages.H"
+#include "processorPolyPatch.H"
 #include "regionSplit.H"
 #include "syncTools.H"
 
@@ -69,6 +70,51 @@ static labelList joined(const label n, const UList<labelPair>& pairs)
     return least;
 }
 
+
+//- Is the mesh known to be connected? Cheaper than finding regions, and all
+//  that most meshes need. Periodic sides, which connect as well, are not looked
+//  at. Collective
+static bool connected(const polyMesh& mesh)
+{
+    labelList parent(identity(mesh.nCells()));
+    const auto root = [&](label i)
+    {
+        while (parent[i] != i)
+        {
+            i = parent[i] = parent[parent[i]];
+        }
+        return i;
+    };
+    const labelList& own = mesh.faceOwner();
+    const labelList& nei = mesh.faceNeighbour();
+    label parts = mesh.nCells();
+    for (label facei = 0; facei < nei.size() && parts > 1; ++facei)
+    {
+        const label a = root(own[facei]);
+        const label b = root(nei[facei]);
+        parts -= a != b;
+        parent[max(a, b)] = min(a, b);
+    }
+
+    // The parts of the ranks, by the ranks they touch
+    List<labelPair> touching;
+    for (const polyPatch& patch : mesh.boundaryMesh())
+    {
+        const auto* processor = isA<processorPolyPatch>(patch);
+        if (processor && patch.size())
+        {
+            touching.append
+            (
+                labelPair(processor->myProcNo(), processor->neighbProcNo())
+            );
+        }
+    }
+    const labelList least(joined(Pstream::nProcs(), touching));
+    return
+        returnReduce(parts == 1, andOp<bool>())
+     && least == labelList(least.size(), Zero);
+}
+
 } // End namespace Foam
 
 
@@ -120,6 +166,10 @@ Foam::reducedMesh::reducedMesh
 
 void Foam::reducedMesh::findRegions()
 {
+    if (connected(mesh_))
+    {
+        return;
+    }
     const regionSplit split(mesh_);
     if (split.nRegions() <= 1)
     {

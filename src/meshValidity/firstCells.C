@@ -4,8 +4,9 @@ SPDX-License-Identifier: GPL-3.0-or-later
 \*---------------------------------------------------------------------------*/
 
 #include "firstCells.H"
+#include "bitSet.H"
+#include "cellGeometry.H"
 #include "emptyPolyPatch.H"
-#include "movedGeometry.H"
 #include "syncTools.H"
 #include "wedgePolyPatch.H"
 
@@ -21,7 +22,7 @@ Foam::firstCells::firstCells
     points_(points),
     heights_(mesh.boundaryMesh().nNonProcessor())
 {
-    const movedGeometry geometry(mesh, points);
+    cellGeometry cell(mesh, points);
     forAll(heights_, patchi)
     {
         const polyPatch& patch = mesh.boundaryMesh()[patchi];
@@ -33,9 +34,11 @@ Foam::firstCells::firstCells
         least.setSize(patch.nPoints(), GREAT);
         forAll(patch, i)
         {
+            const label celli = patch.faceCells()[i];
+            cell.set(celli);
+            const label facei = mesh.cells()[celli].find(patch.start() + i);
             const scalar height =
-                geometry.cellVolumes()[patch.faceCells()[i]]
-               /max(mag(geometry.faceAreas()[patch.start() + i]), VSMALL);
+                cell.volume()/max(mag(cell.areas()[facei]), VSMALL);
             for (const label pointi : patch.localFaces()[i])
             {
                 least[pointi] = min(least[pointi], height);
@@ -53,14 +56,31 @@ Foam::scalar Foam::firstCells::leastOfCells(const boolList& points) const
     {
         return GREAT;
     }
-    const movedGeometry geometry(mesh_, points_);
-    scalar least = GREAT;
-    forAll(mesh_.cells(), celli)
+    bitSet touching(mesh_.nCells());
+    forAll(mesh_.faces(), facei)
     {
-        scalar largest = 0;
-        bool touches = false;
-        for (const label facei : mesh_.cells()[celli])
+        for (const label pointi : mesh_.faces()[facei])
         {
+            if (points[pointi])
+            {
+                touching.set(mesh_.faceOwner()[facei]);
+                if (mesh_.isInternalFace(facei))
+                {
+                    touching.set(mesh_.faceNeighbour()[facei]);
+                }
+                break;
+            }
+        }
+    }
+    cellGeometry cell(mesh_, points_);
+    scalar least = GREAT;
+    for (const label celli : touching)
+    {
+        cell.set(celli);
+        scalar largest = 0;
+        forAll(mesh_.cells()[celli], i)
+        {
+            const label facei = mesh_.cells()[celli][i];
             const label patchi = mesh_.boundaryMesh().whichPatch(facei);
             const bool flat =
                 patchi >= 0
@@ -70,20 +90,10 @@ Foam::scalar Foam::firstCells::leastOfCells(const boolList& points) const
                 );
             if (!flat)
             {
-                largest = max(largest, mag(geometry.faceAreas()[facei]));
-            }
-            for (const label pointi : mesh_.faces()[facei])
-            {
-                touches = touches || points[pointi];
+                largest = max(largest, mag(cell.areas()[i]));
             }
         }
-        if (touches)
-        {
-            least = min
-            (
-                least, geometry.cellVolumes()[celli]/max(largest, VSMALL)
-            );
-        }
+        least = min(least, cell.volume()/max(largest, VSMALL));
     }
     return least;
 }

@@ -7,6 +7,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "movedGeometry.H"
 #include "movedPart.H"
 #include "plainText.H"
+#include "provenCells.H"
 #include "syncTools.H"
 #include "Tuple2.H"
 
@@ -239,13 +240,17 @@ void Foam::invalidMotion::check
 {
     typedef movedGeometry geometry;
 
-    // A valid motion costs no more than this
+    // Nearly all motions end here
     autoPtr<geometry> made;
     bitSet cells;
     label nLocal = 1;
     if (part && !part->most())
     {
         nLocal = !surelyValid(mesh, points, *part);
+    }
+    else if (provenCells::New(mesh).all(points))
+    {
+        nLocal = 0;
     }
     else
     {

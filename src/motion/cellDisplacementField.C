@@ -354,24 +354,28 @@ void Foam::cellDisplacementField::tell(const movedPart& part)
     const vectorField& d = pointDisplacement_.primitiveField();
     vectorField& cells = primitiveFieldRef();
     cells = Zero;
+    const faceList& allFaces = mesh().faces();
+    const labelList& owner = mesh().faceOwner();
+    const labelList& neighbour = mesh().faceNeighbour();
     for (const label facei : part.faces())
     {
-        const face& f = mesh().faces()[facei];
+        const face& f = allFaces[facei];
         vector mean(Zero);
         for (const label pointi : f)
         {
             mean += d[pointi];
         }
         mean /= f.size();
-        cells[mesh().faceOwner()[facei]] += mean;
-        if (facei < mesh().nInternalFaces())
+        cells[owner[facei]] += mean;
+        if (facei < neighbour.size())
         {
-            cells[mesh().faceNeighbour()[facei]] += mean;
+            cells[neighbour[facei]] += mean;
         }
     }
+    const cellList& allCells = mesh().cells();
     for (const label celli : part.cells())
     {
-        cells[celli] /= mesh().cells()[celli].size();
+        cells[celli] /= allCells[celli].size();
     }
 
     // Not by their own evaluate(), with which overset patches would interpolate

@@ -10,7 +10,7 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "polyMesh.H"
 #include "transformField.H"
 #include "UIndirectList.H"
-#include "untrapped.H"
+#include "untrappedHere.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -207,7 +207,7 @@ void Foam::rigidMotion::add(const dictionary& dict, const polyMesh& mesh)
 
 Foam::septernion Foam::rigidMotion::transformation(const label i) const
 {
-    const untrapped numbers;
+    const untrappedHere numbers;
     const septernion t(functions_[i].transformation());
     if
     (
@@ -269,7 +269,7 @@ Foam::tmp<Foam::pointField> Foam::rigidMotion::moved
     const pointField& present
 ) const
 {
-    if (!zones_ && parts_[0].wholeMesh())
+    if (wholeMesh())
     {
         return transformPoints(transformation(0), points0);
     }

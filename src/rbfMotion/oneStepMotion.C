@@ -77,7 +77,7 @@ bool Foam::oneStepMotion::active() const
 Foam::rbfMotion Foam::oneStepMotion::move(const bool check)
 {
     rbfMotion motion;
-    motion.inPlane = vectorField(problem_.points0().size(), Zero);
+    motion.inPlane.setSize(problem_.points0().size(), Zero);
     for (rbfField& field : fields_)
     {
         if (field.active())
@@ -98,7 +98,7 @@ Foam::rbfMotion Foam::oneStepMotion::move(const bool check)
     }
     first_ = false;
     problem_.constrain(motion.inPlane);
-    motion.displacement = problem_.expand(motion.inPlane);
+    motion.displacement.transfer(problem_.expand(motion.inPlane).ref());
     motion.times.lap(motionTimes::propagation);
 
     if (!check || problem_.isValid(motion.displacement))

@@ -152,7 +152,7 @@ Foam::rbfMotion Foam::motionMaker::move()
 
     // Where one step is valid this costs nothing: that is checked in any case
     const bool automatic = n == 0;
-    const rbfMotion one(oneStep_.move(check || automatic));
+    rbfMotion one(oneStep_.move(check || automatic));
     if (!automatic || one.complete())
     {
         return one;

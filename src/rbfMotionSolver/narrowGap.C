@@ -193,10 +193,24 @@ void Foam::narrowGap::warn
         {
             continue;
         }
-        // Of a step that is not valid as well
+        // Of a step that is not valid as well. Most motions go no further
         const labelList& points = problem.reduced().independent(made.region);
+        const bool more = !motion.increment.empty();
+        scalar most = 0;
+        for (const label pointi : points)
+        {
+            const vector& d = motion.inPlane[pointi];
+            most = max(most, magSqr(more ? d + motion.increment[pointi] : d));
+        }
+        most = sqrt(returnReduce(most, maxOp<scalar>()));
+        const scalar told = problem.controlPoints().largestValue(made.region);
+        if (most <= mostOvershoot*told)
+        {
+            continue;
+        }
+
         vectorField displacements(motion.inPlane, points);
-        if (!motion.increment.empty())
+        if (more)
         {
             displacements += vectorField(motion.increment, points);
         }
@@ -204,15 +218,10 @@ void Foam::narrowGap::warn
         (
             largest(displacements, pointField(problem.points0(), points))
         );
-        const scalar told = problem.controlPoints().largestValue(made.region);
-        if (farthest.first() > mostOvershoot*told)
-        {
-            warn
-            (
-                problem, made, motion.nSteps, farthest.first(),
-                farthest.second()
-            );
-        }
+        warn
+        (
+            problem, made, motion.nSteps, farthest.first(), farthest.second()
+        );
     }
 }
 

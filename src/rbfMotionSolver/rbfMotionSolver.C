@@ -199,7 +199,7 @@ void Foam::rbfMotionSolver::deform()
         maker_->limit(motion);
         motion.times += times;
         report(motion);
-        pointDisplacement_.primitiveFieldRef() = motion.displacement;
+        pointDisplacement_.primitiveFieldRef().transfer(motion.displacement);
         selections_ = motion.selections;
         last_ = {motion.nSteps, motion.fraction, optimised};
     }
@@ -253,7 +253,8 @@ Foam::tmp<Foam::pointField> Foam::rbfMotionSolver::curPoints() const
     }
     if (!deforms())
     {
-        return rigid_->moved(points0(), mesh().points());
+        const bool all = rigid_->wholeMesh();
+        return rigid_->moved(points0(), all ? points0() : mesh().points());
     }
     const bool whole = zone_->wholeMesh();
     tmp<pointField> rigid

@@ -31,19 +31,19 @@ static face rotated(const labelUList& f)
 }
 
 
-// Cosine of the angle by which the surface turns at an edge. Faces that
-// traverse the edge in the same direction have opposite orientations
+//- Cosine of the angle by which the surface turns at an edge, from the unit
+//  normals of two faces. Faces that traverse the edge in the same direction have
+//  opposite orientations
 static scalar cosineAcross
 (
     const edge& e,
     const face& f,
     const face& g,
-    const pointField& points
+    const vector& n,
+    const vector& m
 )
 {
     const scalar sign = f.edgeDirection(e) == g.edgeDirection(e) ? -1 : 1;
-    const vector n(normalised(f.areaNormal(points)));
-    const vector m(normalised(g.areaNormal(points)));
     // A face without area turns nowhere
     return n == vector(Zero) || m == vector(Zero) ? 1 : sign*(n & m);
 }
@@ -107,9 +107,15 @@ Foam::gatheredFaces::gatheredFaces
 )
 {
     gather(mesh, points, faces, flips, tags);
-    alignDirections();
-    findSmoothPatches(featureAngle, families);
-    findFeatureEdges(featureAngle);
+    const facesAtEdges at(points_.size(), faces_);
+    alignDirections(at);
+    vectorField normals(faces_.size());
+    forAll(normals, i)
+    {
+        normals[i] = normalised(faces_[i].areaNormal(points_));
+    }
+    findSmoothPatches(at, normals, featureAngle, families);
+    findFeatureEdges(at, normals, featureAngle);
 }
 
 
@@ -262,26 +268,9 @@ void Foam::gatheredFaces::mergePoints
 }
 
 
-Foam::HashTable<Foam::labelList, Foam::edge, Foam::Hash<Foam::edge>>
-Foam::gatheredFaces::facesAtEdges() const
-{
-    HashTable<labelList, edge, Hash<edge>> at(4*faces_.size());
-    forAll(faces_, i)
-    {
-        const face& f = faces_[i];
-        forAll(f, k)
-        {
-            at(f.faceEdge(k)).append(i);
-        }
-    }
-    return at;
-}
-
-
-void Foam::gatheredFaces::alignDirections()
+void Foam::gatheredFaces::alignDirections(const facesAtEdges& at)
 {
     // Faces of a zone may be oriented at random: orient them like the first one
-    const auto at = facesAtEdges();
     boolList visited(faces_.size(), false);
     forAll(faces_, start)
     {
@@ -297,7 +286,7 @@ void Foam::gatheredFaces::alignDirections()
             forAll(f, k)
             {
                 const edge e(f.faceEdge(k));
-                const labelList& these = at[e];
+                const SubList<label> these(at.faces(at.find(e)));
                 for (const label other : these)
                 {
                     if (these.size() == 2 && !visited[other])
@@ -319,23 +308,29 @@ void Foam::gatheredFaces::alignDirections()
 
 void Foam::gatheredFaces::findSmoothPatches
 (
+    const facesAtEdges& at,
+    const vectorField& normals,
     const scalar featureAngle,
     const labelList& families
 )
 {
     components joined(faces_.size());
-    const auto at = facesAtEdges();
-    forAllConstIters(at, iter)
+    const scalar least = Foam::cos(featureAngle);
+    forAll(at.edges(), edgei)
     {
-        const labelList& these = iter.val();
+        const SubList<label> these(at.faces(edgei));
         if
         (
             these.size() == 2
          && families[tags_[these[0]]] == families[tags_[these[1]]]
          && cosineAcross
             (
-                iter.key(), faces_[these[0]], faces_[these[1]], points_
-            ) > Foam::cos(featureAngle)
+                at.edges()[edgei],
+                faces_[these[0]],
+                faces_[these[1]],
+                normals[these[0]],
+                normals[these[1]]
+            ) > least
         )
         {
             joined.join(these[0], these[1]);
@@ -345,42 +340,36 @@ void Foam::gatheredFaces::findSmoothPatches
 }
 
 
-void Foam::gatheredFaces::findFeatureEdges(const scalar featureAngle)
+void Foam::gatheredFaces::findFeatureEdges
+(
+    const facesAtEdges& at,
+    const vectorField& normals,
+    const scalar featureAngle
+)
 {
     DynamicList<edge> sharp;
-    const auto at = facesAtEdges();
-    forAllConstIters(at, iter)
+    const scalar least = Foam::cos(featureAngle);
+    forAll(at.edges(), edgei)
     {
-        const edge& e = iter.key();
-        const labelList& these = iter.val();
+        const edge& e = at.edges()[edgei];
+        const SubList<label> these(at.faces(edgei));
         for (label i = 1; i < these.size(); ++i)
         {
             const scalar cosine = cosineAcross
             (
-                e, faces_[these[0]], faces_[these[i]], points_
+                e,
+                faces_[these[0]],
+                faces_[these[i]],
+                normals[these[0]],
+                normals[these[i]]
             );
-            if (cosine < Foam::cos(featureAngle))
+            if (cosine < least)
             {
-                sharp.append
-                (
-                    edge(min(e.start(), e.end()), max(e.start(), e.end()))
-                );
+                sharp.append(e);
                 break;
             }
         }
     }
-    std::sort
-    (
-        sharp.begin(),
-        sharp.end(),
-        [](const edge& a, const edge& b)
-        {
-            return
-                a.start() != b.start()
-              ? a.start() < b.start()
-              : a.end() < b.end();
-        }
-    );
     edges_ = sharp;
 
     Map<DynamicList<label>> edgesAt(2*edges_.size());

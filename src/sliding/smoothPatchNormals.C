@@ -79,31 +79,50 @@ Foam::smoothPatchNormals::ofFaces() const
 
     const gatheredFaces& faces = smoothPatches_.faces();
 
+    const faceList& meshFaces = mesh_.faces();
+    const labelList& mine = smoothPatches_.myFaces();
+    labelList number(controlled_.size(), Zero);
+    for (const label facei : mine)
+    {
+        for (const label pointi : meshFaces[facei])
+        {
+            const label p = place.lookup(pointi, -1);
+            if (p >= 0)
+            {
+                ++number[p];
+            }
+        }
+    }
+
     // One list per communication: cyclics rotate the normals
     List<List<vector>> around(controlled_.size());
     List<labelList> patchesAround(controlled_.size());
-    forAll(smoothPatches_.myFaces(), facei)
+    forAll(number, p)
+    {
+        around[p].setSize(number[p]);
+        patchesAround[p].setSize(number[p]);
+    }
+    number = Zero;
+    forAll(mine, facei)
     {
         const label i = faces.mine()[facei];
         const face& f = faces.faces()[i];
         const label smoothPatchi = faces.smoothPatches()[i];
         const smoothPatches::smoothPatch& s = smoothPatches_[smoothPatchi];
         const pointField& x = smoothPatches_.vertices(s);
-        for (const label pointi : mesh_.faces()[smoothPatches_.myFaces()[facei]])
+        for (const label pointi : meshFaces[mine[facei]])
         {
-            const auto found = place.cfind(pointi);
-            if (!found.found())
+            const label p = place.lookup(pointi, -1);
+            if (p < 0)
             {
                 continue;
             }
             const label k = f.find(faces.vertices()[pointi]);
             const vector n =
                 plane_.reduce(points0_[pointi], normalOf(f, x, k));
-            around[found.val()].append
-            (
-                s.planar ? mag(n)*s.normal : n
-            );
-            patchesAround[found.val()].append(smoothPatchi);
+            const label j = number[p]++;
+            around[p][j] = s.planar ? mag(n)*s.normal : n;
+            patchesAround[p][j] = smoothPatchi;
         }
     }
     syncTools::syncPointList

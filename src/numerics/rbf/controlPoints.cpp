@@ -80,7 +80,7 @@ ControlPoint ControlPoint::sliding(
     {
         return prescribed(x, s);
     }
-    p.value.head(p.k) = p.C().transpose() * s;
+    p.setDisplacement(s);
     return p;
 }
 
@@ -112,8 +112,7 @@ ConflictingControlPoints::ConflictingControlPoints(
 }
 
 
-std::vector<Index>
-withoutDuplicates(const ControlPoints& points, double tolerance)
+Coincident coincident(const ControlPoints& points)
 {
     std::vector<Index> order(points.size());
     std::iota(order.begin(), order.end(), Index(0));
@@ -121,34 +120,63 @@ withoutDuplicates(const ControlPoints& points, double tolerance)
         order.begin(), order.end(),
         [&](Index a, Index b)
         {
-            const ControlPoint& p = points[a];
-            const ControlPoint& q = points[b];
-            if (p.position != q.position)
-            {
-                return before(p.position, q.position);
-            }
-            return p.k != q.k ? p.k > q.k : a < b;
+            const Vector3& x = points[a].position;
+            const Vector3& y = points[b].position;
+            return x != y ? before(x, y) : a < b;
         });
+    const auto together = [&](Index a, Index b)
+    { return points[a].position == points[b].position; };
 
-    std::vector<Index> kept;
-    for (const Index i : order)
+    Coincident sets;
+    auto start = order.begin();
+    while (start != order.end())
     {
-        const ControlPoint& p = points[i];
-        if (kept.empty() || points[kept.back()].position != p.position)
+        auto end = start + 1;
+        while (end != order.end() && together(*start, *end))
         {
-            kept.push_back(i);
-            continue;
+            ++end;
         }
-
-        const double difference = contradiction(p, points[kept.back()]);
-        if (difference > tolerance)
+        if (end - start > 1)
         {
-            throw ConflictingControlPoints(p.position, difference);
+            sets.emplace_back(start, end);
+        }
+        start = end;
+    }
+    return sets;
+}
+
+
+std::vector<Index> withoutDuplicates(
+    const ControlPoints& points, const Coincident& sets, double tolerance)
+{
+    std::vector<char> kept(points.size(), 1);
+    for (std::vector<Index> set : sets)
+    {
+        std::stable_sort(
+            set.begin(), set.end(),
+            [&](Index a, Index b) { return points[a].k > points[b].k; });
+        for (std::size_t i = 1; i < set.size(); ++i)
+        {
+            const ControlPoint& p = points[set[i]];
+            kept[set[i]] = 0;
+            const double difference = contradiction(p, points[set[0]]);
+            if (difference > tolerance)
+            {
+                throw ConflictingControlPoints(p.position, difference);
+            }
         }
     }
 
-    std::sort(kept.begin(), kept.end());
-    return kept;
+    std::vector<Index> indices;
+    indices.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        if (kept[i])
+        {
+            indices.push_back(Index(i));
+        }
+    }
+    return indices;
 }
 
 } // namespace morph

@@ -48,6 +48,20 @@ struct ControlPoint
         const Vector3& x, const std::vector<Vector3>& normals,
         const Vector3& s = Vector3::Zero());
 
+    // Prescribes another displacement, of which sliding points take what is
+    // along their normals
+    void setDisplacement(const Vector3& s)
+    {
+        if (k == 3)
+        {
+            value = s;
+        }
+        else
+        {
+            value.head(k) = C().transpose() * s;
+        }
+    }
+
     // Is s free along some direction?
     bool slides() const { return k < 3; }
 
@@ -82,13 +96,19 @@ struct ConflictingControlPoints : std::invalid_argument
     double difference;
 };
 
+// Control points at exactly the same position, two or more: their indices in
+// ascending order, the sets in the order of their positions
+using Coincident = std::vector<std::vector<Index>>;
+Coincident coincident(const ControlPoints& points);
+
 // Of control points at exactly the same position keeps the one with most
 // conditions (fixed and moving before edge before surface; of equals the first)
 // and returns their indices in ascending order. Throws ConflictingControlPoints
 // where one that is dropped and the one that is kept prescribe, along a
 // direction they share, displacements further apart than the tolerance [m].
-std::vector<Index>
-withoutDuplicates(const ControlPoints& points, double tolerance);
+// \param sets  coincident(points), which positions alone determine
+std::vector<Index> withoutDuplicates(
+    const ControlPoints& points, const Coincident& sets, double tolerance);
 
 } // namespace morph
 

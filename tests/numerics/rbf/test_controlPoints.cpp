@@ -19,6 +19,13 @@ const Vector3 ey = Vector3::UnitY();
 const Vector3 ez = Vector3::UnitZ();
 
 
+std::vector<Index>
+withoutDuplicates(const ControlPoints& points, double tolerance)
+{
+    return morph::withoutDuplicates(points, coincident(points), tolerance);
+}
+
+
 std::string conflictOf(const ControlPoints& points, double tolerance)
 {
     try
@@ -162,6 +169,25 @@ TEST(Duplicates, ofOnePositionThatWithMostConditionsStays)
     EXPECT_EQ(
         withoutDuplicates({other, surface, edge, other}, 0), (Indices{0, 2}));
     EXPECT_EQ(withoutDuplicates({}, 0), Indices());
+}
+
+
+// Of positions alone: values and directions may change, and the sets remain
+TEST(Duplicates, setsFollowFromPositions)
+{
+    const ControlPoint low = ControlPoint::prescribed(x0 - ex, ez);
+    const ControlPoint high = ControlPoint::prescribed(x0 + ex, ez);
+    const ControlPoint here = ControlPoint::sliding(x0, {ex});
+    ControlPoints points{high, here, low, here, high, low, here};
+    const Coincident sets = coincident(points);
+    EXPECT_EQ(sets, (Coincident{{2, 5}, {1, 3, 6}, {0, 4}}));
+
+    points[3] = ControlPoint::prescribed(x0, Vector3::Zero());
+    EXPECT_EQ(coincident(points), sets);
+    EXPECT_EQ(
+        morph::withoutDuplicates(points, sets, 0),
+        (std::vector<Index>{0, 2, 3}));
+    EXPECT_TRUE(coincident({low, high, here}).empty());
 }
 
 

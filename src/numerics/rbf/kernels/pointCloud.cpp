@@ -6,7 +6,6 @@
 #include "kernelSum.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
@@ -28,13 +27,16 @@ double PointCloud::Leaf::distance2(const Vector3& x) const
 
 
 PointCloud::PointCloud(const Vectors& positions)
-: size_(positions.rows()),
-  order_(positions.rows())
+: size_(positions.rows())
 {
-    std::iota(order_.begin(), order_.end(), Index(0));
+    std::vector<Place> places(size_);
+    for (Index i = 0; i < size_; ++i)
+    {
+        places[i] = {{positions(i, 0), positions(i, 1), positions(i, 2)}, i};
+    }
     if (size_ > 0)
     {
-        split(positions, 0, size_);
+        split(places.data(), places.data() + size_);
     }
 
     sorted_.resize(index_.size(), 3);
@@ -42,53 +44,51 @@ PointCloud::PointCloud(const Vectors& positions)
     {
         sorted_.row(i) = positions.row(index_[i]);
     }
-    order_ = std::vector<Index>();
 }
 
 
-void PointCloud::split(const Vectors& x, Index begin, Index end)
+void PointCloud::split(Place* begin, Place* end)
 {
     if (end - begin <= leafSize)
     {
-        addLeaf(x, begin, end);
+        addLeaf(begin, end);
         return;
     }
 
-    Vector3 low = x.row(order_[begin]);
+    Vector3 low = Eigen::Map<const Vector3>(begin->x);
     Vector3 high = low;
-    for (Index i = begin; i < end; ++i)
+    for (const Place* p = begin; p != end; ++p)
     {
-        const Vector3 p = x.row(order_[i]);
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        low = low.cwiseMin(Eigen::Map<const Vector3>(p->x));
+        high = high.cwiseMax(Eigen::Map<const Vector3>(p->x));
     }
     int axis;
     (high - low).maxCoeff(&axis);
 
     // Cut at a multiple of the leaf size, so that only one leaf is not full
     const Index leaves = (end - begin + leafSize - 1) / leafSize;
-    const Index middle = begin + (leaves / 2) * leafSize;
+    Place* const middle = begin + (leaves / 2) * leafSize;
     std::nth_element(
-        order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-        [&](Index a, Index b) { return x(a, axis) < x(b, axis); });
-    split(x, begin, middle);
-    split(x, middle, end);
+        begin, middle, end,
+        [axis](const Place& a, const Place& b)
+        { return a.x[axis] < b.x[axis]; });
+    split(begin, middle);
+    split(middle, end);
 }
 
 
-void PointCloud::addLeaf(const Vectors& x, Index begin, Index end)
+void PointCloud::addLeaf(const Place* begin, const Place* end)
 {
     Leaf leaf;
     leaf.begin = index_.size();
     leaf.count = end - begin;
-    leaf.low = x.row(order_[begin]);
+    leaf.low = Eigen::Map<const Vector3>(begin->x);
     leaf.high = leaf.low;
-    for (Index i = begin; i < end; ++i)
+    for (const Place* p = begin; p != end; ++p)
     {
-        const Vector3 p = x.row(order_[i]);
-        leaf.low = leaf.low.cwiseMin(p);
-        leaf.high = leaf.high.cwiseMax(p);
-        index_.push_back(order_[i]);
+        leaf.low = leaf.low.cwiseMin(Eigen::Map<const Vector3>(p->x));
+        leaf.high = leaf.high.cwiseMax(Eigen::Map<const Vector3>(p->x));
+        index_.push_back(p->index);
     }
     while ((index_.size() - leaf.begin) % blockSize != 0)
     {

@@ -47,11 +47,17 @@ public:
     const std::vector<Index>& index() const { return index_; }
 
 private:
-    void split(const Vectors& x, Index begin, Index end);
-    void addLeaf(const Vectors& x, Index begin, Index end);
+    // Beside its index, so that sorting reads memory in order
+    struct Place
+    {
+        double x[3];
+        Index index;
+    };
+
+    void split(Place* begin, Place* end);
+    void addLeaf(const Place* begin, const Place* end);
 
     Index size_;
-    std::vector<Index> order_;
     std::vector<Leaf> leaves_;
     std::vector<Index> index_;
     Columns sorted_;
