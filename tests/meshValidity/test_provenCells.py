@@ -13,7 +13,7 @@ import re
 
 import pytest
 
-from boxCase import box, write_control
+from boxCase import SCHEMES, SOLUTION, box, write_control
 from foamCase import FoamCase, build_program
 from mixedMesh import write_mixed_mesh
 
@@ -43,6 +43,8 @@ def check(rows):
 def mixed(path):
     case = FoamCase(path)
     write_control(case)
+    case.write("system/fvSchemes", "dictionary", SCHEMES)
+    case.write("system/fvSolution", "dictionary", SOLUTION)
     mesh = write_mixed_mesh(case)
     return case, mesh
 
