@@ -224,6 +224,8 @@ def test_control_points_come_with_their_values(recorded):
         values = controls["values"]
         assert set(values) == {
             "conditions",
+            "offMesh",
+            "region",
             "selected",
             "weight",
             "displacement",

@@ -73,23 +73,6 @@ def printed_body(message, others):
     return with_patches_that_stay(found[0], others) if found else ""
 
 
-def described_body(entries):
-    """The body of a tutorial as the type of displacement that a message
-    names."""
-
-    def change(message, others):
-        if "sixDoFRigidBody" not in message:
-            return ""
-        return with_patches_that_stay(
-            "body { type moving; displacement { type sixDoFRigidBody;"
-            f" report off; solver {{ type Newmark; }} {entries[1]} }}"
-            f" patches ({entries[0]}); }}",
-            others,
-        )
-
-    return change
-
-
 def with_patches_that_stay(body, others):
     return (
         "controlPoints\n{\n"
@@ -132,30 +115,6 @@ def no_code(file, rho, x, y, z):
     )
 
 
-# With what joints and restraints of rigidBodyMotion are there
-FLOATING = described_body(
-    (
-        "floatingObject",
-        "mass 15; centreOfMass (0.5 0.45 0.35);"
-        " momentOfInertia (0.3625 0.425 0.1625); accelerationRelaxation 0.7;"
-        " constraints { fixedLine { sixDoFRigidBodyMotionConstraint line;"
-        " centreOfRotation (0.5 0.45 0.1); direction (0 1 0); }"
-        " fixedAxis { sixDoFRigidBodyMotionConstraint axis; axis (0 1 0); } }",
-    )
-)
-HULL = described_body(
-    (
-        "hull",
-        "mass 412.73; centreOfMass (2.929541 0 0.2);"
-        " momentOfInertia (40 921 921); accelerationRelaxation 0.4;"
-        " constraints { zAxis { sixDoFRigidBodyMotionConstraint line;"
-        " direction (0 0 1); } yPlane { sixDoFRigidBodyMotionConstraint axis;"
-        " axis (0 1 0); } } restraints { translationDamper"
-        " { sixDoFRigidBodyMotionRestraint linearDamper; coeff 8596; }"
-        " rotationDamper { sixDoFRigidBodyMotionRestraint"
-        " sphericalAngularDamper; coeff 11586; } }",
-    )
-)
 # A hull in 20,295 cells: four of the six refinements about it, no layers
 COARSE_HULL = (
     ("Allrun", "for i in 1 2 3 4 5 6", "for i in 2 3 4 5"),
@@ -170,7 +129,6 @@ COARSE_HULL = (
     ("system/blockMeshDict", r"\(42 19 20\)", "(28 12 5)"),
     ("system/snappyHexMeshDict", r"addLayers +true", "addLayers false"),
 )
-DESCRIBED = dict(BODY, changed="the body by displacement `sixDoFRigidBody`")
 
 
 KNOWN = [
@@ -243,7 +201,7 @@ KNOWN = [
         "multiphase/interFoam/RAS/floatingObject",
         0.6,
         bodies=("floatingObject",),
-        **dict(DESCRIBED, change=FLOATING),
+        **BODY,
     ),
     Tutorial(
         "multiphase/interFoam/RAS/floatingObject",
@@ -260,7 +218,7 @@ KNOWN = [
         bodies=("hull",),
         edits=COARSE_HULL,
         deltaT=0.005,
-        **dict(DESCRIBED, change=HULL),
+        **BODY,
     ),
     Tutorial(
         "multiphase/interFoam/RAS/DTCHullMoving",
