@@ -298,11 +298,9 @@ KNOWN = [
         OVER + "boatAndPropeller",
         # Coarser, no cells are left between the overset parts and the walls
         0.6,
-        own=True,
         bodies=("hullWall", "propellerWall", "rudderWall"),
-        tolerance=0.05,
-        limit="keep the solver rigidBodyMotion",
         steps=4,
+        **BODY,
     ),
     # Rigid motion of the mesh or of zones
     Tutorial(
