@@ -202,7 +202,11 @@ def tutorials(arguments):
         wanted = not arguments.cases or any(
             part in case.name for part in arguments.cases
         )
-        if not wanted or not (case / "original/motionClock").exists():
+        ran = [
+            (case / name / "motionClock").exists()
+            for name in ("original", "change", "twoLines")
+        ]
+        if not wanted or not ran[0] or not any(ran[1:]):
             continue
         line, found = row(
             case.name.replace(".", "/"),
