@@ -42,30 +42,15 @@ static IOdictionary readDict(const fvMesh& mesh)
 static autoPtr<pointIOField> reference(const fvMesh& mesh)
 {
     const untrapped numbers;
-    const fileName instance
+    const referencePoints::referenceFile reference
     (
-        mesh.time().findInstance
-        (
-            mesh.meshDir(), "points0", IOobject::READ_IF_PRESENT
-        )
+        referencePoints::find(mesh)
     );
-    referencePoints::checkFile(mesh, instance);
-    IOobject io
-    (
-        "points0",
-        instance,
-        polyMesh::meshSubDir,
-        mesh,
-        IOobject::MUST_READ,
-        IOobject::NO_WRITE,
-        false
-    );
-    const bool found = io.typeHeaderOk<pointIOField>(true);
-    if (!returnReduce(found, andOp<bool>()))
+    if (!reference.found)
     {
         return autoPtr<pointIOField>(nullptr);
     }
-    autoPtr<pointIOField> points0(new pointIOField(io));
+    autoPtr<pointIOField> points0(new pointIOField(reference.file));
     const string fault
     (
         points0->size() == mesh.nPoints()

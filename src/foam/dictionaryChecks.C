@@ -332,4 +332,46 @@ Foam::labelList Foam::dictionaryChecks::select
 }
 
 
+Foam::scalar Foam::dictionaryChecks::getBetween
+(
+    const dictionary& dict,
+    const word& key,
+    const scalar otherwise,
+    const scalar least,
+    const scalar most
+)
+{
+    const scalar value = dict.getOrDefault<scalar>(key, otherwise);
+    if (!(value >= least && value <= most))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value << nl
+            << "    Use a number from " << least << " to " << most << nl
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+Foam::label Foam::dictionaryChecks::getCount
+(
+    const dictionary& dict,
+    const word& key,
+    const label otherwise,
+    const label least,
+    const label most
+)
+{
+    const label value = dict.getOrDefault<label>(key, otherwise);
+    if (value < least || value > most)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value << nl
+            << "    Use a whole number from " << least << " to " << most << nl
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
 // ************************************************************************* //

@@ -98,6 +98,37 @@ void Foam::referencePoints::checkFile
 }
 
 
+Foam::referencePoints::referenceFile Foam::referencePoints::find
+(
+    const polyMesh& mesh
+)
+{
+    // Looking for a file reads its head, where any number may be
+    const untrapped numbers;
+    const fileName instance
+    (
+        mesh.time().findInstance
+        (
+            mesh.meshDir(), "points0", IOobject::READ_IF_PRESENT
+        )
+    );
+    checkFile(mesh, instance);
+    IOobject file
+    (
+        "points0",
+        instance,
+        polyMesh::meshSubDir,
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+    const bool found = file.typeHeaderOk<pointIOField>(true);
+    return {file, returnReduce(found, andOp<bool>())};
+}
+
+
+
 Foam::autoPtr<Foam::pointIOField> Foam::referencePoints::read
 (
     const polyMesh& mesh,

@@ -28,49 +28,6 @@ const Foam::Enum<morph::SimplexTarget> Foam::optimiseSettings::targetNames
 namespace Foam
 {
 
-//- A number between bounds
-static scalar getBetween
-(
-    const dictionary& dict,
-    const word& key,
-    const scalar otherwise,
-    const scalar least,
-    const scalar most
-)
-{
-    const scalar value = dict.getOrDefault<scalar>(key, otherwise);
-    if (!(value >= least && value <= most))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value << nl
-            << "    Use a number from " << least << " to " << most << nl
-            << exit(FatalIOError);
-    }
-    return value;
-}
-
-
-static label getCount
-(
-    const dictionary& dict,
-    const word& key,
-    const label otherwise,
-    const label least,
-    const label most
-)
-{
-    const label value = dict.getOrDefault<label>(key, otherwise);
-    if (value < least || value > most)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value << nl
-            << "    Use a whole number from " << least << " to " << most << nl
-            << exit(FatalIOError);
-    }
-    return value;
-}
-
-
 static label getLayers(const dictionary& dict)
 {
     if (!dict.found("layers"))
@@ -127,9 +84,9 @@ Foam::optimiseSettings Foam::optimiseSettings::read(const dictionary& dict)
     (
         dict, "target", targetNames, s.target
     );
-    s.power = getCount(dict, "power", s.power, 1, 16);
-    s.sizeWeight = getBetween(dict, "sizeWeight", s.sizeWeight, 0, 1e3);
-    s.iterations = getCount(dict, "iterations", s.iterations, 1, 1000000);
+    s.power = dictionaryChecks::getCount(dict, "power", s.power, 1, 16);
+    s.sizeWeight = dictionaryChecks::getBetween(dict, "sizeWeight", s.sizeWeight, 0, 1e3);
+    s.iterations = dictionaryChecks::getCount(dict, "iterations", s.iterations, 1, 1000000);
     s.layers = getLayers(dict);
     if (dict.found("limits"))
     {
@@ -138,12 +95,12 @@ Foam::optimiseSettings Foam::optimiseSettings::read(const dictionary& dict)
         (
             limits, {"nonOrthogonality", "skewness", "determinant"}, {}
         );
-        s.nonOrthogonality = getBetween
+        s.nonOrthogonality = dictionaryChecks::getBetween
         (
             limits, "nonOrthogonality", s.nonOrthogonality, 1, 180
         );
-        s.skewness = getBetween(limits, "skewness", s.skewness, 1e-3, GREAT);
-        s.determinant = getBetween(limits, "determinant", s.determinant, 0, 1);
+        s.skewness = dictionaryChecks::getBetween(limits, "skewness", s.skewness, 1e-3, GREAT);
+        s.determinant = dictionaryChecks::getBetween(limits, "determinant", s.determinant, 0, 1);
     }
     return s;
 }

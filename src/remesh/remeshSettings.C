@@ -23,47 +23,6 @@ Foam::remeshSettings::extentNames
 namespace Foam
 {
 
-static scalar readNumber
-(
-    const dictionary& dict,
-    const word& key,
-    const scalar otherwise,
-    const scalar least,
-    const scalar most
-)
-{
-    const scalar value = dict.getOrDefault<scalar>(key, otherwise);
-    if (!(value >= least && value <= most))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value << nl
-            << "    Use a number from " << least << " to " << most << nl
-            << exit(FatalIOError);
-    }
-    return value;
-}
-
-
-static label readCount
-(
-    const dictionary& dict,
-    const word& key,
-    const label otherwise,
-    const label least
-)
-{
-    const label value = dict.getOrDefault<label>(key, otherwise);
-    if (value < least)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value << nl
-            << "    Use a whole number, " << least << " or more" << nl
-            << exit(FatalIOError);
-    }
-    return value;
-}
-
-
 //- The only word that an entry may be so far
 static void onlyWord
 (
@@ -105,11 +64,11 @@ Foam::remeshSettings Foam::remeshSettings::read(const dictionary& dict)
     (
         dict, "region", extentNames, s.region
     );
-    s.layers = readCount(dict, "layers", s.layers, 1);
-    s.keepLayers = readCount(dict, "keepLayers", s.keepLayers, 0);
-    s.passes = readCount(dict, "passes", s.passes, 1);
-    s.maxRemeshes = readCount(dict, "maxRemeshes", s.maxRemeshes, 1);
-    s.sizeFactor = readNumber(dict, "sizeFactor", s.sizeFactor, 1e-3, 1e3);
+    s.layers = dictionaryChecks::getCount(dict, "layers", s.layers, 1);
+    s.keepLayers = dictionaryChecks::getCount(dict, "keepLayers", s.keepLayers, 0);
+    s.passes = dictionaryChecks::getCount(dict, "passes", s.passes, 1);
+    s.maxRemeshes = dictionaryChecks::getCount(dict, "maxRemeshes", s.maxRemeshes, 1);
+    s.sizeFactor = dictionaryChecks::getBetween(dict, "sizeFactor", s.sizeFactor, 1e-3, 1e3);
     onlyWord(dict, "size", "reference");
     onlyWord(dict, "mapping", "conservative");
     if (dict.found("limits"))
@@ -119,12 +78,12 @@ Foam::remeshSettings Foam::remeshSettings::read(const dictionary& dict)
         (
             limits, {"nonOrthogonality", "skewness", "fraction"}, {}
         );
-        s.nonOrthogonality = readNumber
+        s.nonOrthogonality = dictionaryChecks::getBetween
         (
             limits, "nonOrthogonality", s.nonOrthogonality, 1, 180
         );
-        s.skewness = readNumber(limits, "skewness", s.skewness, 1e-3, GREAT);
-        s.fraction = readNumber(limits, "fraction", s.fraction, 0, 1);
+        s.skewness = dictionaryChecks::getBetween(limits, "skewness", s.skewness, 1e-3, GREAT);
+        s.fraction = dictionaryChecks::getBetween(limits, "fraction", s.fraction, 0, 1);
     }
     return s;
 }

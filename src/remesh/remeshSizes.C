@@ -23,25 +23,12 @@ static const char* const sizeName = "remeshSize";
 //  there, or else its points: where motion solvers find their reference
 static pointField referenceOf(const fvMesh& mesh)
 {
-    const fileName instance
+    const referencePoints::referenceFile points0File
     (
-        mesh.time().findInstance
-        (
-            mesh.meshDir(), "points0", IOobject::READ_IF_PRESENT
-        )
+        referencePoints::find(mesh)
     );
-    referencePoints::checkFile(mesh, instance);
-    IOobject io
-    (
-        "points0",
-        instance,
-        polyMesh::meshSubDir,
-        mesh,
-        IOobject::MUST_READ,
-        IOobject::NO_WRITE,
-        false
-    );
-    if (!returnReduce(io.typeHeaderOk<pointIOField>(true), andOp<bool>()))
+    IOobject io(points0File.file);
+    if (!points0File.found)
     {
         io.rename("points");
         io.instance() = mesh.time().constant();
