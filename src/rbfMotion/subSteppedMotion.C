@@ -135,7 +135,8 @@ void Foam::subSteppedMotion::addStep
         problem_.selection(regioni),
         problem_.correctionRadius(regioni, mayShrink),
         problem_.correctionRadius(regioni, true),
-        part.images
+        part.images,
+        controlPoints.surfacesStay()
     };
     const label steps = motion.nSteps - motion.nMade;
     pstreamCommunicator communicator;

@@ -7,6 +7,8 @@ Sources of truth: the closed forms of cylinder and sphere; for a patch without a
 named surface its own faces, which are flat and of equal angles around the axis.
 """
 
+import re
+
 import numpy as np
 import pytest
 
@@ -248,7 +250,10 @@ def test_sub_steps_go_on_around_the_surface(tmp_path, n):
     assert off_faces(after[casing]) < 1e-12
     # Further than 60 degrees, which is as far as one direction reaches
     angle = around(before, after)
-    assert angle.min() > 1.3 and angle.max() < 1.5
+    assert angle.min() > 1.3 and angle.max() < 1.65
+    # Cells turn with it: points that slide are on the surface in every step
+    largest = re.search(r"non-orthogonality Max: (\S+)", output)[1]
+    assert float(largest) < 25
 
 
 def test_sub_steps_around_the_surface_are_the_same_on_three_ranks(tmp_path):

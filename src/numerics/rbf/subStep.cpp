@@ -21,8 +21,9 @@ SubStep subStep(
     {
         for (Index i = 0; i < Index(part.size()); ++i)
         {
-            part[i].value =
-                whole[i].residual(reached.row(i).transpose()) / steps;
+            const bool atOnce = settings.slideAtOnce && whole[i].slides();
+            part[i].value = whole[i].residual(reached.row(i).transpose())
+                / (atOnce ? 1 : steps);
         }
     };
     for (Index i = 0; i < Index(part.size()); ++i)

@@ -27,6 +27,10 @@ struct SubStepSettings
     double roughRadius;
 
     ImageGroup images = ImageGroup();
+
+    // Do points that slide stay on their surfaces in every step? Otherwise
+    // they get there in equal parts, as to surfaces elsewhere
+    bool slideAtOnce = false;
 };
 
 struct SubStep
