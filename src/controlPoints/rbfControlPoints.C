@@ -376,6 +376,23 @@ bool Foam::rbfControlPoints::surfacesStay() const
 }
 
 
+bool Foam::rbfControlPoints::surfacesAreOwn() const
+{
+    for (const controlPointGroup& group : groups_)
+    {
+        if
+        (
+            group.slides()
+         && group.surface() == controlPointGroup::surfaceType::named
+        )
+        {
+            return false;
+        }
+    }
+    return surfacesStay();
+}
+
+
 bool Foam::rbfControlPoints::update(const bool rebuild)
 {
     const bool changed = sliding_.update(rebuild);

@@ -136,7 +136,7 @@ void Foam::subSteppedMotion::addStep
         problem_.correctionRadius(regioni, mayShrink),
         problem_.correctionRadius(regioni, true),
         part.images,
-        controlPoints.surfacesStay()
+        controlPoints.surfacesAreOwn()
     };
     const label steps = motion.nSteps - motion.nMade;
     pstreamCommunicator communicator;

@@ -28,7 +28,7 @@ struct SubStepSettings
 
     ImageGroup images = ImageGroup();
 
-    // Do points that slide stay on their surfaces in every step? Otherwise
+    // Are points that slide on their surfaces, and stay so in every step? Otherwise
     // they get there in equal parts, as to surfaces elsewhere
     bool slideAtOnce = false;
 };
