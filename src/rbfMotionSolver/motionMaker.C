@@ -155,6 +155,8 @@ Foam::rbfMotion Foam::motionMaker::move()
     rbfMotion one(oneStep_.move(check || automatic));
     if (!automatic || one.complete())
     {
+        // What one step can make is no turn to go on from
+        ways_ = motionPaths();
         return one;
     }
     rbfMotion motion(one);

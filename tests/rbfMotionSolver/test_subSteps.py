@@ -333,3 +333,25 @@ def test_a_body_that_turns_over_is_refused(tmp_path):
     output = case.run("moveDynamicMesh", status=1)
     assert "Control points 'cube' have turned by more than half" in output
     assert "reference moving" in output
+
+
+def test_a_body_that_comes_back_may_turn_the_other_way(tmp_path):
+    """Where it needs steps it turns by 125 degrees one way and, a quarter of
+    the period of rest between, the other: not over."""
+    case = rbf_case(
+        tmp_path / "case",
+        coeffs="subSteps auto;"
+        + turning(0).replace(
+            "rotatingMotion; rotatingMotionCoeffs { origin (0.5 0.5 0.5);"
+            " axis (0 1 0); omega 0.0; }",
+            "oscillatingRotatingMotion; oscillatingRotatingMotionCoeffs {"
+            " origin (0.5 0.5 0.5); amplitude (0 125 0);"
+            f" omega {np.pi/2!r}; }}",
+        ),
+        cells=(10, 10, 10),
+        control={"end": 3},
+    )
+    output = case.run("moveDynamicMesh")
+    # At rest in one step
+    assert len(steps(output)) == 2
+    assert output.count("Mesh OK") == 3
