@@ -8,15 +8,14 @@ SPDX-License-Identifier: GPL-3.0-or-later
 #include "dictionaryChecks.H"
 #include "eigenFields.H"
 #include "gradScheme.H"
+#include "metricFields.H"
+#include "metricGradation.H"
 #include "plainText.H"
 #include "pstreamCommunicator.H"
 #include "reproducibleSum.hpp"
 #include "StringStream.H"
-#include "syncTools.H"
 #include "volFields.H"
 #include "zeroGradientFvPatchFields.H"
-
-#include <algorithm>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,26 +41,6 @@ static const scalar flat = 1e-9;
 // To which the complexity is met, and after how many tries at the latest
 static const scalar near = 0.01;
 static const label mostTries = 20;
-
-// A metric is finer than another by more than round-off
-static const scalar refined = 1e-6;
-
-// Sizes grow from cell to cell in so many passes at the latest
-static const label mostPasses = 200;
-
-
-static symmTensor toTensor(const morph::Metric& m)
-{
-    return symmTensor(m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2));
-}
-
-
-static morph::Metric toMetric(const symmTensor& t)
-{
-    morph::Metric m;
-    m << t.xx(), t.xy(), t.xz(), t.xy(), t.yy(), t.yz(), t.xz(), t.yz(), t.zz();
-    return m;
-}
 
 
 template<class Type>
@@ -278,111 +257,13 @@ Foam::scalar Foam::functionObjects::morphMetric::complexity
 }
 
 
-void Foam::functionObjects::morphMetric::grade(metricList& metrics) const
-{
-    const pointField& centres = mesh_.cellCentres();
-    const label nInternal = mesh_.nInternalFaces();
-    pointField otherCentres;
-    syncTools::swapBoundaryCellPositions(mesh_, centres, otherCentres);
-
-    boolList coupled(mesh_.nFaces() - nInternal, false);
-    for (const polyPatch& patch : mesh_.boundaryMesh())
-    {
-        if (patch.coupled())
-        {
-            SubList<bool>(coupled, patch.size(), patch.start() - nInternal) =
-                true;
-        }
-    }
-
-    // Intersections depend on their order, which is that of neighbours along a
-    // direction in which no two of any usual mesh are level: the same on every
-    // number of ranks
-    struct neighbour
-    {
-        scalar place;
-        label cell;
-        point centre;
-    };
-    const vector along(0.754877666, 0.569840291, 0.324717957);
-
-    bool changed = true;
-    DynamicList<neighbour> around;
-    for (label pass = 0; changed && pass < mostPasses; ++pass)
-    {
-        changed = false;
-        symmTensorField mine(metrics.size());
-        forAll(mine, celli)
-        {
-            mine[celli] = toTensor(metrics[celli]);
-        }
-        symmTensorField others;
-        syncTools::swapBoundaryCellList(mesh_, mine, others);
-        metricList next(metrics);
-        forAll(mesh_.cells(), celli)
-        {
-            around.clear();
-            for (const label facei : mesh_.cells()[celli])
-            {
-                const label i = facei - nInternal;
-                if (i < 0)
-                {
-                    const label own = mesh_.faceOwner()[facei];
-                    const label other =
-                        own == celli ? mesh_.faceNeighbour()[facei] : own;
-                    around.append
-                    ({
-                        centres[other] & along, other, centres[other]
-                    });
-                }
-                else if (coupled[i])
-                {
-                    around.append
-                    ({
-                        otherCentres[i] & along, -1 - i, otherCentres[i]
-                    });
-                }
-            }
-            std::sort
-            (
-                around.begin(),
-                around.end(),
-                [](const neighbour& a, const neighbour& b)
-                {
-                    return a.place < b.place;
-                }
-            );
-            morph::Metric& m = next[celli];
-            for (const neighbour& other : around)
-            {
-                const morph::Metric wanted = morph::grown
-                (
-                    other.cell < 0
-                  ? toMetric(others[-1 - other.cell])
-                  : metrics[other.cell],
-                    toEigen(centres[celli] - other.centre),
-                    gradation_
-                );
-                const morph::Metric both = morph::intersection(m, wanted);
-                if (both.trace() > (1 + refined)*m.trace())
-                {
-                    m = both;
-                    changed = true;
-                }
-            }
-        }
-        metrics.swap(next);
-        reduce(changed, orOp<bool>());
-    }
-}
-
-
 Foam::functionObjects::morphMetric::metricList
 Foam::functionObjects::morphMetric::scaled
 (
     const metricList& metrics,
     const morph::Basis& basis,
-    const scalar factor
+    const scalar factor,
+    const metricGradation& gradation
 ) const
 {
     const morph::Metric within = basis*basis.transpose();
@@ -395,7 +276,7 @@ Foam::functionObjects::morphMetric::scaled
     if (gradation_ > 1)
     {
         // Where directions differ an intersection is finer than either
-        grade(result);
+        gradation.grade(result, gradation_);
         for (morph::Metric& m : result)
         {
             m = morph::bounded(m, basis, hMin_, hMax_);
@@ -504,13 +385,14 @@ bool Foam::functionObjects::morphMetric::execute()
       : scalar(returnReduce(mesh_.nCells(), sumOp<label>()));
 
     const metricList unit(optimal(directions));
+    const metricGradation gradation(mesh_);
     scalar factor = std::pow(wanted, 2/d);
-    metricList metrics(scaled(unit, directions, factor));
+    metricList metrics(scaled(unit, directions, factor, gradation));
     scalar made = complexity(metrics, directions);
     for (label i = 0; mag(made/wanted - 1) > near && i < mostTries; ++i)
     {
         factor *= std::pow(wanted/made, 2/d);
-        metrics = scaled(unit, directions, factor);
+        metrics = scaled(unit, directions, factor, gradation);
         const scalar now = complexity(metrics, directions);
         if (mag(now/made - 1) < 1e-6)
         {
