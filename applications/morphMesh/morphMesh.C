@@ -116,6 +116,7 @@ Usage
 #include "fvMesh.H"
 #include "caseSelection.H"
 #include "clockTime.H"
+#include "guardedRun.H"
 #include "meshFiles.H"
 #include "morphMeshControls.H"
 #include "morphMeshInput.H"
@@ -126,11 +127,8 @@ Usage
 #include "motionLimiter.H"
 #include "motionRecord.H"
 #include "plainText.H"
-#include "throwing.H"
 #include "validFraction.H"
 
-#include <csignal>
-#include <new>
 
 using namespace Foam;
 
@@ -375,10 +373,7 @@ static bool morph(const argList& args)
 
 int main(int argc, char *argv[])
 {
-    // A limit on the size of files is an error, as a full disk is; and where
-    // memory ends OpenFOAM would abort
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::set_new_handler(nullptr);
+    guardedRun::prepare();
 
     if (morphVersion::asked(argc, argv))
     {
@@ -394,27 +389,10 @@ int main(int argc, char *argv[])
             << exit(FatalError);
     }
 
-    bool valid = false;
-    try
-    {
-        const throwing errors;
-        valid = morph(args);
-    }
-    catch (const Foam::error& wrong)
-    {
-        // OpenFOAM aborts after some errors: all end like this
-        report(wrong);
-        Pstream::exit(1);
-    }
-    catch (const std::exception& wrong)
-    {
-        FatalErrorInFunction
-            << "morphMesh stops: " << wrong.what() << nl
-            << "    A file of the case asks for more memory than there is, or"
-            << " has contents of another kind; the last line above says which"
-            << " was being read" << nl << exit(FatalError);
-    }
-
+    const bool valid = guardedRun::run
+    (
+        "morphMesh", [&]() { return morph(args); }
+    );
     if (!valid)
     {
         // Not by return: the end of argList ends the program with status 0.

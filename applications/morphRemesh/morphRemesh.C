@@ -54,21 +54,19 @@ Usage
 #include "conservativeMapping.H"
 #include "dictionaryChecks.H"
 #include "fvMesh.H"
+#include "guardedRun.H"
 #include "IOdictionary.H"
 #include "meshFiles.H"
 #include "meshQuality.H"
 #include "morphVersion.H"
 #include "plainText.H"
 #include "pointFields.H"
+#include "referencePoints.H"
 #include "remesher.H"
 #include "remeshSizes.H"
-#include "throwing.H"
 #include "Time.H"
 #include "untrapped.H"
 #include "volFields.H"
-
-#include <csignal>
-#include <new>
 
 using namespace Foam;
 
@@ -133,21 +131,17 @@ static remeshSettings readSettings(const argList& args, const fvMesh& mesh)
 //- The mesh is its own reference from now on
 static void resetReference(fvMesh& mesh)
 {
-    for (const word& name : {word("pointDisplacement")})
+    const word points("pointDisplacement");
+    const word cells("cellDisplacement");
+    if (mesh.foundObject<pointVectorField>(points))
     {
-        if (mesh.foundObject<pointVectorField>(name))
-        {
-            auto& field = mesh.lookupObjectRef<pointVectorField>(name);
-            field.primitiveFieldRef() = Zero;
-        }
+        mesh.lookupObjectRef<pointVectorField>(points)
+            .primitiveFieldRef() = Zero;
     }
-    for (const word& name : {word("cellDisplacement")})
+    if (mesh.foundObject<volVectorField>(cells))
     {
-        if (mesh.foundObject<volVectorField>(name))
-        {
-            auto& field = mesh.lookupObjectRef<volVectorField>(name);
-            field.primitiveFieldRef() = Zero;
-        }
+        mesh.lookupObjectRef<volVectorField>(cells)
+            .primitiveFieldRef() = Zero;
     }
 }
 
@@ -223,15 +217,7 @@ static bool remesh(const argList& args)
     const PtrList<topoSet> sets(allFields::readSets(mesh));
     const scalarField sizes(remeshSizes::of(mesh).primitiveField());
     const fileName instance(mesh.facesInstance());
-    const bool hadPoints0 = isFile
-    (
-        runTime.path()
-       /runTime.findInstance
-        (
-            mesh.meshDir(), "points0", IOobject::READ_IF_PRESENT
-        )
-       /mesh.meshDir()/"points0"
-    );
+    const bool hadPoints0 = referencePoints::find(mesh).found;
     const scalar readTime = clock.timeIncrement();
 
     const meshQuality before(mesh, mesh.points());
@@ -307,8 +293,7 @@ static bool remesh(const argList& args)
 
 int main(int argc, char *argv[])
 {
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::set_new_handler(nullptr);
+    guardedRun::prepare();
 
     if (morphVersion::asked(argc, argv))
     {
@@ -316,24 +301,7 @@ int main(int argc, char *argv[])
     }
     addOptions();
     #include "setRootCase.H"
-    try
-    {
-        const throwing errors;
-        remesh(args);
-    }
-    catch (const Foam::error& wrong)
-    {
-        report(wrong);
-        Pstream::exit(1);
-    }
-    catch (const std::exception& wrong)
-    {
-        FatalErrorInFunction
-            << "morphRemesh stops: " << wrong.what() << nl
-            << "    A file of the case asks for more memory than there is, or"
-            << " has contents of another kind; the last line above says which"
-            << " was being read" << nl << exit(FatalError);
-    }
+    guardedRun::run("morphRemesh", [&]() { return remesh(args); });
     return 0;
 }
 

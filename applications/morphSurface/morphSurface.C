@@ -62,20 +62,18 @@ Usage
 #include "ffdFit.H"
 #include "ffdPreview.H"
 #include "finiteNumbers.H"
+#include "guardedRun.H"
 #include "IFstream.H"
 #include "morphVersion.H"
 #include "OSspecific.H"
 #include "shapeConstraints.H"
 #include "shapeMeasures.H"
 #include "surfaceFile.H"
-#include "throwing.H"
 #include "untrapped.H"
 #include "wholeFile.H"
 
-#include <csignal>
 #include <cstdlib>
 #include <limits>
-#include <new>
 
 using namespace Foam;
 
@@ -390,31 +388,14 @@ int main(int argc, char *argv[])
         return 0;
     }
 
-    // A limit on the size of files is an error, as a full disk is; and where
-    // memory ends OpenFOAM would abort
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::set_new_handler(nullptr);
+    guardedRun::prepare();
 
     addOptions();
     const argList args(argc, argv);
-    try
-    {
-        const throwing errors;
-        deform(args);
-    }
-    catch (const Foam::error& wrong)
-    {
-        // OpenFOAM aborts after some errors: all end like this
-        report(wrong);
-        std::exit(1);
-    }
-    catch (const std::exception& wrong)
-    {
-        FatalErrorInFunction
-            << "morphSurface stops: " << wrong.what() << nl
-            << "    The surface or the dictionary asks for more memory than"
-            << " there is" << nl << exit(FatalError);
-    }
+    guardedRun::run
+    (
+        "morphSurface", [&]() { deform(args); return true; }
+    );
     return 0;
 }
 

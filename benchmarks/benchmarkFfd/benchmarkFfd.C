@@ -17,37 +17,16 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
+#include "benchmarkClock.H"
 #include "ffdBoxes.H"
 #include "fvMesh.H"
 #include "IOdictionary.H"
 #include "NURBS3DVolume.H"
 #include "Time.H"
 
-#include <time.h>
-
 using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
-
-// CPU seconds since the last call, finer than OpenFOAM's cpuTime
-static scalar passed()
-{
-    static scalar former = 0;
-    timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    const scalar seconds = now.tv_sec + 1e-9*now.tv_nsec;
-    const scalar difference = seconds - former;
-    former = seconds;
-    return difference;
-}
-
-
-static scalar median(scalarList times)
-{
-    sort(times);
-    return times[times.size()/2];
-}
-
 
 static void ours(const dictionary& dict, const polyMesh& mesh)
 {

@@ -14,10 +14,10 @@ import re
 
 import numpy as np
 
-from boxCase import block_mesh, fixed, from_block_mesh, point_field
+from boxCase import block_mesh, from_block_mesh
 from rbfCase import CUBE, DROP_IN
+from uniformFlow import VELOCITY, write_flow
 
-VELOCITY = (1, 0.5, 0.25)
 STEPS = 100
 STEP = 0.05
 
@@ -69,41 +69,7 @@ def deviation(path, motion):
         block_mesh(CUBE, cells=(8, 8, 8)),
         {"end": STEPS * STEP, "deltaT": STEP, "writeInterval": STEPS // 8},
     )
-    files = {
-        "constant/dynamicMeshDict": motion,
-        "constant/transportProperties": "transportModel Newtonian; nu 0.001;",
-        "constant/turbulenceProperties": "simulationType laminar;",
-        "system/fvSchemes": SCHEMES,
-        "system/fvSolution": SOLUTION,
-    }
-    for name, body in files.items():
-        case.write(name, "dictionary", body)
-    velocity = "uniform (%g %g %g)" % VELOCITY
-    case.write(
-        "0/U",
-        "volVectorField",
-        "dimensions [0 1 -1 0 0 0 0];"
-        f" internalField {velocity}; boundaryField {{"
-        f' ".*" {{ type fixedValue; value {velocity}; }}'
-        " xMax { type zeroGradient; } }",
-    )
-    case.write(
-        "0/p",
-        "volScalarField",
-        "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
-        ' boundaryField { ".*" { type zeroGradient; }'
-        " xMax { type fixedValue; value uniform 0; } }",
-    )
-    case.write(
-        "0/pointDisplacement",
-        *point_field(
-            {
-                **{side: "zeroGradient" for side in CUBE},
-                "zMin": fixed(0, 0, 0),
-                "zMax": TOP,
-            }
-        ),
-    )
+    write_flow(case, motion, SCHEMES, SOLUTION, TOP)
     case.run("pimpleFoam")
     times = [
         time

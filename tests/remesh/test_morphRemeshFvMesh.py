@@ -15,15 +15,13 @@ import pytest
 
 from boxCase import (
     block_mesh,
-    fixed,
     from_block_mesh,
-    point_field,
     write_control,
 )
 from cellFields import read_internal
 from rbfCase import CUBE
+from uniformFlow import VELOCITY, write_flow
 
-VELOCITY = (1, 0.5, 0.25)
 
 SCHEMES = """
 ddtSchemes {{ default {ddt}; }} gradSchemes {{ default Gauss linear; }}
@@ -81,42 +79,14 @@ def flow(
         block_mesh(CUBE, cells=(6, 6, 6)),
         {"end": end * STEP, "deltaT": STEP, "writeInterval": 4},
     )
-    files = {
-        "constant/dynamicMeshDict": DYNAMIC.format(
+    write_flow(
+        case,
+        DYNAMIC.format(
             solver=solver, coeffs=coeffs, limit=limit, remesh=remesh
         ),
-        "constant/transportProperties": "transportModel Newtonian; nu 0.001;",
-        "constant/turbulenceProperties": "simulationType laminar;",
-        "system/fvSchemes": SCHEMES.format(ddt=ddt),
-        "system/fvSolution": SOLUTION % controls,
-    }
-    for name, body in files.items():
-        case.write(name, "dictionary", body)
-    velocity = "uniform (%g %g %g)" % VELOCITY
-    case.write(
-        "0/U",
-        "volVectorField",
-        "dimensions [0 1 -1 0 0 0 0];"
-        f" internalField {velocity}; boundaryField {{"
-        f' ".*" {{ type fixedValue; value {velocity}; }}'
-        " xMax { type zeroGradient; } }",
-    )
-    case.write(
-        "0/p",
-        "volScalarField",
-        "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0;"
-        ' boundaryField { ".*" { type zeroGradient; }'
-        " xMax { type fixedValue; value uniform 0; } }",
-    )
-    case.write(
-        "0/pointDisplacement",
-        *point_field(
-            {
-                **{side: "zeroGradient" for side in CUBE},
-                "zMin": fixed(0, 0, 0),
-                "zMax": MOTION,
-            }
-        ),
+        SCHEMES.format(ddt=ddt),
+        SOLUTION % controls,
+        MOTION,
     )
     return case
 
